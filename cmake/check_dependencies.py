@@ -29,6 +29,7 @@ HEAVY = (
     ("OpenMesh", r"^OpenMesh/", r"^kernels/mesh/progressive/", "kernels/mesh/progressive"),
     ("GDAL", r"^(gdal|ogr|cpl|vrt)\w*\.h", r"^(components/terrain|components/terrain_pager|tools)/",
      "components/terrain, components/terrain_pager, tools"),
+    ("Assimp", r"^assimp/", r"^components/terrain/", "components/terrain"),
     ("OpenSSL", r"^openssl/", r"^components/terrain/tiles/", "components/terrain/tiles"),
     ("nlohmann/json", r"^nlohmann/json\.hpp", r"\.cpp$", ".cpp files (headers take <nlohmann/json_fwd.hpp>)"),
 )
@@ -39,7 +40,8 @@ KERNELS = ["kernels"]
 TALK = ["messages", "components/errors", "components/runtime"]
 FILES = ["components/errors", "components/config"]
 WORLD = FILES + ["scenarios", "messages"] + KERNELS
-SHARED = TALK + WORLD + ["components/record", "components/formats", "components/terrain", "components/sonar", "components/truth"]
+SHARED = TALK + WORLD + ["components/record", "components/formats", "components/transport", "components/terrain",
+                                            "components/sonar", "components/truth"]
 SEES = {
     "kernels/base": [],
     "kernels/water": ["kernels/base"],
@@ -53,6 +55,7 @@ SEES = {
     "messages": [],
     "components/errors": [],
     "components/formats": ["components/errors"],
+    "components/transport": ["components/errors"],
     "components/config": ["components/errors"],
     "components/runtime": ["messages", "components/errors"],
     "components/record": TALK,
@@ -74,7 +77,7 @@ FAR = {"examples/gyro": re.compile(r"^(scenarios/world|components/sonar|kernels/
 # Rooms of the picture: the first prefix that fits.
 DRAWN = (
     ("tools/", "tools/<verb>"), ("launch/", "launch"), ("scenarios/", "scenarios"), ("messages/", "messages"), ("kernels/", "kernels"),
-    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "truth", "config", "runtime", "errors")),
+    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "transport", "truth", "config", "runtime", "errors")),
     ("components/", "components/<process>"),
 )
 # Every process has its main() from there; drawn, it would be an arrow both ways.

@@ -16,10 +16,11 @@ namespace ensonify::msg {
 
 /// Every message type, the only list of them. A new type is added here; a test finds one that was forgotten.
 using AllMessages =
-    std::tuple<Pose, Guidance, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
+    std::tuple<Pose, Guidance, Helm, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
-               MeshRelease, Object, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health, ClockHealth>;
+               MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
+               ClockHealth>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

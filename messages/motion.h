@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace ensonify::msg {
 
@@ -44,6 +45,8 @@ struct Guidance {
   double heading_grid_rad = 0.0;
   double speed_mps = 0.0;
   double depth_m = std::numeric_limits<double>::quiet_NaN();
+  std::string vehicle;
+  bool hand_back = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -51,6 +54,27 @@ struct Guidance {
     visit("heading_grid_rad", "rad", "heading to steer, clockwise from grid north", self.heading_grid_rad);
     visit("speed_mps", "m/s", "speed through the water to reach, forward", self.speed_mps);
     visit("depth_m", "m", "depth of the body origin below the water level to hold; NaN: as before", self.depth_m);
+    visit("vehicle", "", "name of the vehicle that is meant; empty: whichever receives it", self.vehicle);
+    visit("hand_back", "1", "release of the vehicle to the next of those who may steer it", self.hand_back);
+  }
+};
+
+struct Helm {
+  static constexpr const char* kType = "helm/1";
+  static constexpr const char* kAbout = "Who steers a vehicle, of several that may, and why.";
+  std::int64_t stamp_ns = 0;
+  std::string steered_by;
+  std::vector<std::string> pilots;
+  std::string why;
+  std::int64_t refused = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of the state, sim time", self.stamp_ns);
+    visit("steered_by", "", "name of the pilot whose commands are obeyed; empty: nobody's", self.steered_by);
+    visit("pilots", "", "names of those who may steer it, the first before the others", self.pilots);
+    visit("why", "", "reason of the last change: commands, silent, hand_back; empty: none yet", self.why);
+    visit("refused", "1", "number of commands refused so far, of all pilots", self.refused);
   }
 };
 
@@ -68,7 +92,8 @@ struct MissionState {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("stamp_ns", "ns", "time of the state, sim time", self.stamp_ns);
-    visit("state", "", "run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done", self.state);
+    visit("state", "", "run_in, on_line, run_out or turn; pass, keep or orbit; await_line; stand_by; abort or done",
+          self.state);
     visit("line", "1", "index of the runline being run, -1 before the first", self.line);
     visit("line_count", "1", "number of runlines in the mission", self.line_count);
     visit("line_name", "", "name of the runline being run; empty: it has none", self.line_name);

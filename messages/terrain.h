@@ -109,6 +109,7 @@ struct Object {
   std::int64_t class_id = 0;
   std::string shape;
   std::array<double, 3> size_m{};
+  std::int64_t mesh = -1;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_object{1.0, 0.0, 0.0, 0.0};
   bool smooth = false;
@@ -121,17 +122,35 @@ struct Object {
     visit("instance", "1", "number in labels, from 1", self.instance);
     visit("class_name", "", "class in labels", self.class_name);
     visit("class_id", "1", "number of the class in labels, from 1", self.class_id);
-    visit("shape", "", "sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)", self.shape);
-    visit("size_m", "m",
-          "diameter of a sphere; sides x, y, z of a box; diameter and length of a cylinder; sides x, y of a plate; "
-          "then 0",
+    visit("shape", "", "word of its shape, as objects of a scenario have it", self.shape);
+    visit("size_m", "m", "sizes of its shape, in the order of the scenario's keys, then 0; of a mesh its scale",
           self.size_m);
+    visit("mesh", "1", "number of the object_mesh/1 that is its shape; -1: its shape follows from its sizes",
+          self.mesh);
     visit("position_enu_m", "m", "world position of its middle", self.position_enu_m);
     visit("enu_from_object", "1", "rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)",
           self.enu_from_object);
     visit("smooth", "", "smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle",
           self.smooth);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
+  }
+};
+
+struct ObjectMesh {
+  static constexpr const char* kType = "object_mesh/1";
+  static constexpr const char* kAbout = "The shape of objects that have it in common, from a file. Truth.";
+  std::int64_t number = 0;
+  bool closed = false;
+  Array<float> vertex_m;
+  Array<std::uint32_t> triangle;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", "1", "number by which objects name it", self.number);
+    visit("closed", "1", "closedness: it has an inside, and only its outside scatters", self.closed);
+    visit("vertex_m", "m", "vertices (vertex x 3) about its middle: x east, y north, z up when not turned",
+          self.vertex_m);
+    visit("triangle", "1", "corners (triangle x 3), counterclockwise as seen from outside", self.triangle);
   }
 };
 

@@ -15,7 +15,8 @@ bool gives_depth(const Mission& mission) {
   };
   const AbortRules& abort = mission.abort;
   return mission.depth_m > 0.0 || mission.altitude_m || mission.least_altitude_m > 0.0 || abort.after_s ||
-         abort.position_sd_m || abort.too_low_s || std::any_of(mission.steps.begin(), mission.steps.end(), goes);
+         abort.position_sd_m || abort.too_low_s || mission.when_silent == WhenSilent::kSurface ||
+         std::any_of(mission.steps.begin(), mission.steps.end(), goes);
 }
 
 }  // namespace

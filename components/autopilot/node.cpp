@@ -16,6 +16,7 @@ AutopilotNode::AutopilotNode(const Config& config, Ports& ports)
       missions_(ports.out<msg::MissionState>("mission", {.rate = Rate{config.command_rate_hz, 1}})) {
   ports.may_finish();
   ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { estimate_ = estimate; });
+  ports.in<msg::Helm>("helm", [this](const msg::Helm& helm) { helm_ = helm; }, {.optional = true});
   if (config.plan.needs_chart()) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) { chart_ = chart; });
   } else {
@@ -53,7 +54,12 @@ SimTime AutopilotNode::step(SimTime now) {
   if (pilot_ && estimate_) {
     if (altitude_) pilot_->take_altitude(*altitude_);
     altitude_.reset();
-    pilot_->update(now, *estimate_);
+    if (another_steers()) {
+      pilot_->stand_by(now, *estimate_);
+    } else {
+      pilot_->take_over(now, helm_ && helm_->why == "silent");
+      pilot_->update(now, *estimate_);
+    }
     commands_.send(pilot_->command(now));
     missions_.send(pilot_->mission_state(now));
     for (const auto& [head, settings] : pilot_->take_settings()) settings_.at(head).send(settings);
@@ -66,6 +72,12 @@ SimTime AutopilotNode::step(SimTime now) {
     }
   }
   return commands_due_.next();
+}
+
+/// Of the vehicle that this process may steer; another one's helm is none of its business.
+bool AutopilotNode::another_steers() const {
+  const auto is_me = [&](const std::string& name) { return name == ports_.process(); };
+  return helm_ && !helm_->steered_by.empty() && !is_me(helm_->steered_by) && std::ranges::any_of(helm_->pilots, is_me);
 }
 
 int AutopilotNode::exit_code() const {

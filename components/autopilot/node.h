@@ -24,12 +24,14 @@ class AutopilotNode {
  private:
   void check_settings();
   void report_health(SimTime now);
+  bool another_steers() const;
 
   AutopilotConfig config_;
   Ports& ports_;
   Periodic commands_due_;
   std::optional<msg::Estimate> estimate_;
   std::optional<msg::Chart> chart_;
+  std::optional<msg::Helm> helm_;
   std::optional<msg::Altitude> altitude_;  // received since the last command
   std::optional<Pilot> pilot_;             // empty until the lines are known
   bool checked_ = false, finished_ = false;

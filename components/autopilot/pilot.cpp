@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -28,6 +29,7 @@ const char* name_of(Pilot::State state) {
     case Pilot::State::kKeep: return "keep";
     case Pilot::State::kOrbit: return "orbit";
     case Pilot::State::kAwaitLine: return "await_line";
+    case Pilot::State::kStandBy: return "stand_by";
     case Pilot::State::kAbort: return "abort";
     case Pilot::State::kDone: return "done";
   }
@@ -246,6 +248,7 @@ void Pilot::observe(SimTime now, const msg::Estimate& estimate) {
   position_enu_m_ = estimate.position_enu_m;
   cosine_of_tilt_ = std::cos(attitude.roll_rad) * std::cos(attitude.pitch_rad);
   here_ = {{place, attitude.heading_rad}, velocity.norm(), -estimate.position_enu_m[2]};
+  if (!home_enu_m_) home_enu_m_ = mission_.home_enu_m.value_or(place);
   if (begun_ && drift_settle_s_ > 0.0 && holds_line()) {
     drift_enu_mps_ = guidance::learn_drift(drift_enu_mps_, velocity, attitude.heading_rad, period_s_, drift_settle_s_);
   }
@@ -257,6 +260,7 @@ void Pilot::observe(SimTime now, const msg::Estimate& estimate) {
 std::optional<double> Pilot::way_to_go_m() const {
   switch (state_) {
     case State::kAwaitLine:
+    case State::kStandBy:
     case State::kAbort:
     case State::kDone: return std::nullopt;
     case State::kTurn: return turn_.length_m() - along_turn_m_;
@@ -297,6 +301,46 @@ void Pilot::update(SimTime now, const msg::Estimate& estimate) {
   }
   if (holds_line() && state_ != State::kAwaitLine) follow_line(now);
   abort_monitor_.go(now, way_to_go_m(), goal != std::tuple(state_, step_, round_, piece_));
+}
+
+void Pilot::stand_by(SimTime now, const msg::Estimate& estimate) {
+  observe(now, estimate);
+  if (ended() || state_ == State::kAbort) return;
+  if (state_ != State::kStandBy && !falls_back_) interrupted_ = state_;
+  state_ = State::kStandBy;
+  abort_monitor_.go(now, std::nullopt, true);
+}
+
+void Pilot::take_over(SimTime now, bool after_silence) {
+  if (state_ != State::kStandBy) return;
+  constexpr double kForEver_s = std::numeric_limits<double>::infinity();
+  const WhenSilent act = after_silence ? mission_.when_silent : WhenSilent::kGoOn;
+  falls_back_ = act != WhenSilent::kGoOn;
+  begun_ = true;
+  switch (act) {
+    case WhenSilent::kGoOn: resume(now); break;
+    case WhenSilent::kHold: begin(KeepPlace{std::nullopt, kForEver_s}, now); break;
+    case WhenSilent::kHome: begin(KeepPlace{home_enu_m_, kForEver_s}, now); break;
+    case WhenSilent::kSurface:
+      given_up_ = "the pilot that steered fell silent";
+      state_ = State::kAbort;
+      break;
+  }
+}
+
+/// Goes on with the mission where another pilot interrupted it.
+void Pilot::resume(SimTime now) {
+  if (step_ == 0) return begin_step(now);
+  state_ = interrupted_;
+  switch (state_) {
+    case State::kTurn:
+    case State::kRunIn:
+    case State::kOnLine:
+    case State::kRunOut: head_for_line(); break;
+    case State::kPass: head_for(goal_); break;
+    case State::kKeep: begin(std::get<KeepPlace>(steps_[step_ - 1]), now); break;
+    default: break;
+  }
 }
 
 bool Pilot::ended() const {
@@ -345,6 +389,7 @@ msg::Guidance Pilot::steer() const {
       guidance.speed_mps = steering.speed_mps;
       break;
     }
+    case State::kStandBy: guidance.speed_mps = here_.speed_mps; break;
     case State::kAbort:
       if (ended()) guidance.speed_mps = 0.0;
       break;
@@ -359,6 +404,7 @@ msg::Guidance Pilot::steer() const {
 msg::Guidance Pilot::command(SimTime now) const {
   msg::Guidance guidance = steer();
   guidance.stamp_ns = now.count();
+  if (state_ == State::kStandBy) return guidance;
   if (depth_.steers()) guidance.depth_m = state_ == State::kAbort ? 0.0 : height_.depth_m;
   if (height_.too_low && state_ != State::kAbort) guidance.speed_mps *= kSlowestClimb;
   return guidance;

@@ -26,7 +26,7 @@ namespace ensonify {
 /// drift learned so far makes good.
 class Pilot {
  public:
-  enum class State { kTurn, kRunIn, kOnLine, kRunOut, kPass, kKeep, kOrbit, kAwaitLine, kAbort, kDone };
+  enum class State { kTurn, kRunIn, kOnLine, kRunOut, kPass, kKeep, kOrbit, kAwaitLine, kStandBy, kAbort, kDone };
 
   Pilot(const AutopilotConfig& config, std::vector<MissionStep> steps);
 
@@ -37,6 +37,12 @@ class Pilot {
   /// Evaluates where the vehicle is and moves on through the states; then command() and mission_state() give the
   /// outcome.
   void update(SimTime now, const msg::Estimate& estimate);
+
+  /// In the place of update() while another pilot steers.
+  void stand_by(SimTime now, const msg::Estimate& estimate);
+  /// The vehicle is this pilot's again; before update(). After one that fell silent the mission says what comes;
+  /// otherwise it goes on: a line is run again from the beginning of the piece that was being run.
+  void take_over(SimTime now, bool after_silence);
 
   State state() const { return state_; }
   /// Nothing is left to do: the mission is done, or given up with the vehicle at the surface.
@@ -63,6 +69,7 @@ class Pilot {
 
   // --- steps
   void begin_step(SimTime now);
+  void resume(SimTime now);
   void begin(const FollowLine& line, SimTime now);
   void begin(const PassPlace& pass, SimTime now);
   void begin(const KeepPlace& keep, SimTime now);
@@ -107,6 +114,8 @@ class Pilot {
 
   // Where the vehicle is in it.
   State state_ = State::kTurn;
+  State interrupted_ = State::kTurn;  // of the mission, when another pilot began to steer
+  bool falls_back_ = false;           // does what `when_silent` says in the mission's place
   bool begun_ = false;
   std::int64_t line_ = -1;  // number of the line run or headed for
   std::string line_name_;
@@ -135,6 +144,7 @@ class Pilot {
   std::vector<std::pair<std::string, msg::SonarSettings>> settings_;
   std::vector<msg::Mark> marks_;
   std::array<double, 3> position_enu_m_{};
+  std::optional<runlines::Vec2> home_enu_m_;
 };
 
 }  // namespace ensonify

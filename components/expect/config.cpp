@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "components/config/config_error.h"
@@ -90,6 +91,15 @@ std::optional<Scalar> in_array(const RawArray& array, const std::string& step) {
   return reduced(tally, step);
 }
 
+/// The reduction of one column of an array of rows, as the heights of beam x 3 positions.
+std::optional<Scalar> in_column(const RawArray& array, std::size_t column, const std::string& reduction) {
+  if (array.shape.size() < 2 || column >= array.shape.back()) return std::nullopt;
+  const std::size_t count = array.bytes.size / msg::dtype_size(array.dtype);
+  Tally tally;
+  for (std::size_t i = column; i < count; i += array.shape.back()) tally.add(array.number(i));
+  return reduced(tally, reduction);
+}
+
 std::optional<Scalar> reduced(const Value::List& list, const std::string& reduction) {
   Tally tally;
   for (const Value& value : list) {
@@ -150,8 +160,13 @@ bool is_single(const FieldInfo& field) {
 
 std::optional<Scalar> value_at(const Value& message, const std::string& path) {
   const Value* here = &message;
-  for (const std::string& step : steps_of(path)) {
-    if (const auto* array = here->as<RawArray>()) return in_array(*array, step);
+  const std::vector<std::string> steps = steps_of(path);
+  for (const std::string& step : steps) {
+    if (const auto* array = here->as<RawArray>()) {
+      if (&step == &steps.back()) return in_array(*array, step);
+      const auto column = index_of(step);
+      return column ? in_column(*array, *column, steps.back()) : std::nullopt;
+    }
     if (const auto* list = here->as<Value::List>()) {
       if (is_reduction(step)) return reduced(*list, step);
       here = in_list(*list, step);
@@ -168,9 +183,10 @@ std::string path_fault(const msg::TypeInfo& type, const std::string& path) {
   FieldInfo whole;
   whole.members = type.fields;
   const FieldInfo* here = &whole;
-  bool reduction = false;
+  bool reduction = false, column = false;
   for (const std::string& step : steps_of(path)) {
     std::string fault;
+    if (std::exchange(column, false) && is_reduction(step)) continue;
     if (reduction || is_single(*here)) return "nothing is inside a single value: " + step;
     if (here->kind == Kind::map) {
       here = member(here->members, step, fault);
@@ -184,7 +200,7 @@ std::string path_fault(const msg::TypeInfo& type, const std::string& path) {
       return fmt::format("there is no element {}; allowed: 0..{}", step, here->length - 1);
     } else if (here->kind == Kind::array) {
       if (!index) return "an array has no part " + step + alternatives(step, kReductions) + " or an index";
-      reduction = true;  // a single value
+      reduction = column = true;  // a single value, or what follows is of its column
     } else if (index || (here->kind == Kind::list && has_named_elements(*here))) {
       here = &here->members.front();
     } else {

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +61,8 @@ msg::Soundings soundings(SimTime t, std::vector<std::uint8_t> valid, std::vector
   s.stamp_ns = t.count();
   s.valid = msg::Array<std::uint8_t>::of(std::move(valid));
   s.quality_db = msg::Array<float>::of(std::move(quality));
+  s.position_enu_m = msg::Array<double>({2, 3});
+  std::ranges::copy(std::array{100.0, 200.0, -15.0, 101.0, 201.0, -16.0}, s.position_enu_m.flat().begin());
   return s;
 }
 
@@ -143,6 +146,13 @@ TEST_CASE("bounds on fields, array elements and reductions") {
               "there was no message on bow/soundings");
   check_passes("bounds: {topic: bow/soundings, where: {field: ping, equals: 0}, field: valid.all, max: 0}",
                "10 values in [0, 0]");
+  check_passes("bounds: {topic: bow/soundings, field: position_enu_m.2.min, min: -16, max: -16}",
+               "10 values in [-16, -16]");
+  check_passes("bounds: {topic: bow/soundings, field: position_enu_m.0.max, max: 101}", "10 values in [101, 101]");
+  check_fails("bounds: {topic: bow/soundings, field: position_enu_m.3.max, max: 0}", 10,
+              "position_enu_m.3.max had no value in 10 messages");
+  check_fails("bounds: {topic: bow/soundings, field: quality_db.0.max, max: 0}", 10,
+              "quality_db.0.max had no value in 10 messages");
   check_fails("bounds: {topic: auv/pose, field: position_enu_m.2, max: 0}", 10, "there was no message on auv/pose");
 }
 

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/errors/overloaded.h"
 #include "kernels/vehicle/vertical/reduction.h"
 
 namespace ensonify {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-
-template <class... F>
-struct Overloaded : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overloaded(F...) -> Overloaded<F...>;
 
 /// Outside what is known an attitude stays; only the way goes on.
 motion::Moving held(const motion::SampledCurve& curve, double t_s) {
@@ -30,18 +24,14 @@ FedTrack::FedTrack(const NavFeedConfig& config, const frames::LocalProjection& w
     : config_(config), world_(world), count_(std::move(count)) {}
 
 void FedTrack::take(std::string_view text, SimTime now) {
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end);
-    if (line.find_first_not_of("\r\n") == std::string_view::npos) continue;
+  nmea::for_each_line(text, [&](std::string_view line) {
     std::visit(Overloaded{[&](const nmea::Other&) { count_("sentences_of_other_kinds"); },
                           [&](const nmea::Empty&) { count_("sentences_without_data"); },
                           [&](const nmea::BadChecksum&) { count_("sentences_with_bad_checksum"); },
                           [&](const nmea::Malformed&) { count_("sentences_malformed"); },
                           [&](const auto& sentence) { take(sentence, now); }},
-               nmea::parse(line));
-  }
+               nmea::read_navigation(line));
+  });
 }
 
 double FedTrack::unwrapped_s(double time_of_day_s) const {

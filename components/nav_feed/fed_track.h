@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "components/formats/nmea/navigation.h"
 #include "components/nav_feed/config.h"
-#include "components/nav_feed/nmea.h"
 #include "components/runtime/sim_time.h"
 #include "kernels/base/frames/pose.h"
 #include "kernels/vehicle/motion/sampled_curve.h"

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <map>
 
+#include "components/formats/nmea/testing/sentence.h"
 #include "components/nav_feed/node.h"
-#include "components/nav_feed/testing/sentence.h"
 
 using namespace ensonify;
 using Catch::WithinAbs;

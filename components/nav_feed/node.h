@@ -1,33 +1,17 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/fed_track.h"
 #include "components/runtime/ports.h"
 #include "components/runtime/rate_limit.h"
+#include "components/transport/udp_listener.h"
 #include "kernels/vehicle/vertical/floating.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
-
-/// A UDP port of the loopback interface: nobody outside this machine can send to it.
-class UdpListener {
- public:
-  /// Throws UserError when the port is taken.
-  explicit UdpListener(int port);
-  ~UdpListener();
-  UdpListener(const UdpListener&) = delete;
-  UdpListener& operator=(const UdpListener&) = delete;
-
-  /// The next datagram that has arrived; nothing when none has. Does not wait.
-  std::optional<std::string> take();
-
- private:
-  int socket_;
-};
 
 /// Stands in for a vehicle: its true pose is what sentences from outside give.
 class NavFeedNode {

@@ -129,6 +129,8 @@ void SeabedBelow::connect(Ports& ports, bool optional) {
   ports.in<msg::Mesh>("mesh", [this](const msg::Mesh& mesh) { tiles_.insert(mesh); }, {.optional = true});
   ports.in<msg::MeshRelease>("mesh_release", [this](const msg::MeshRelease& mesh) { tiles_.release(mesh); },
                              {.optional = true});
+  ports.in<msg::ObjectMesh>("object_mesh", [this](const msg::ObjectMesh& mesh) { tiles_.insert(mesh); },
+                            {.optional = true});
   ports.in<msg::Object>("object", [this](const msg::Object& object) { tiles_.insert(object); }, {.optional = true});
   ports.in<msg::ObjectRelease>("object_release", [this](const msg::ObjectRelease& object) { tiles_.release(object); },
                                {.optional = true});

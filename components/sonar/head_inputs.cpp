@@ -58,6 +58,8 @@ HeadInputs::HeadInputs(Ports& ports, const Start& start)
   ports.in<msg::Mesh>("mesh", [this](const msg::Mesh& mesh) { tiles_.insert(mesh); }, {.optional = true});
   ports.in<msg::MeshRelease>("mesh_release", [this](const msg::MeshRelease& release) { tiles_.release(release); },
                              {.optional = true});
+  ports.in<msg::ObjectMesh>("object_mesh", [this](const msg::ObjectMesh& mesh) { tiles_.insert(mesh); },
+                            {.optional = true});
   ports.in<msg::Object>("object", [this](const msg::Object& object) { tiles_.insert(object); }, {.optional = true});
   ports.in<msg::ObjectRelease>("object_release", [this](const msg::ObjectRelease& release) { tiles_.release(release); },
                                {.optional = true});

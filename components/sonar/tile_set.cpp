@@ -48,12 +48,15 @@ void TileSet::insert(const msg::Mesh& message) {
 
 void TileSet::release(const msg::MeshRelease& release) { scene_.remove(release.number); }
 
+void TileSet::insert(const msg::ObjectMesh& mesh) { object_mesh_.insert_or_assign(mesh.number, mesh_of(mesh)); }
+
 void TileSet::insert(const msg::Object& object) {
-  const solids::Solid solid = solid_of(object);
+  const auto mesh = object_mesh_.find(object.mesh);
+  const solids::Solid solid = solid_of(object, mesh == object_mesh_.end() ? nullptr : &mesh->second);
   const double sagitta_m =
       object.smooth ? echo::kSagittaInWaves * shortest_wave_m_ : kDiffuseSagitta * solids::radius_m(solid);
   trace::Body body;
-  body.surface = surface_of(object, sagitta_m);
+  body.surface = surface_of(object, solid, sagitta_m);
   body.two_sided = !solids::is_closed(solid);
   body.smooth = object.smooth;
   body.sediment = static_cast<std::uint8_t>(object.sediment);

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+
 #include "kernels/acoustics/trace/scene.h"
 #include "kernels/base/frames/attitude.h"
+#include "kernels/mesh/solids/solid.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
@@ -17,6 +21,8 @@ class TileSet {
   void release(const msg::TileRelease& release);
   void insert(const msg::Mesh& mesh);
   void release(const msg::MeshRelease& release);
+  void insert(const msg::ObjectMesh& mesh);
+  /// After the mesh that it names.
   void insert(const msg::Object& object);
   void release(const msg::ObjectRelease& release);
 
@@ -27,7 +33,8 @@ class TileSet {
 
  private:
   trace::Scene scene_;
-  terrain::TileGrid grid_;  // of the tiles held
+  terrain::TileGrid grid_;                            // of the tiles held
+  std::map<std::int64_t, solids::Mesh> object_mesh_;  // by number
   double shortest_wave_m_;
 };
 

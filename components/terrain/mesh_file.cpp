@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "components/config/config_error.h"
+#include "components/terrain/mesh_import.h"
 #include "kernels/base/frames/attitude.h"
 
 namespace ensonify::source {
@@ -205,11 +206,13 @@ MeshFile read_mesh_file(const std::string& path) {
   file.read(magic.data(), 3);
   file.clear();
   file.seekg(0);
-  MeshFile mesh = magic == "ply" ? Ply(file, path).read() : read_obj(file, path);
+  MeshFile mesh = is_imported_mesh(path) ? import_mesh(path)
+                  : magic == "ply"       ? Ply(file, path).read()
+                                         : read_obj(file, path);
   for (const frames::Vec3& place : mesh.vertex) {
     if (!place.allFinite()) refuse(path, 1, "has a vertex that is not finite");
   }
-  if (mesh.triangle.empty()) refuse(path, 1, "holds no triangle; allowed are meshes in OBJ or PLY");
+  if (mesh.triangle.empty()) refuse(path, 1, "holds no triangle; allowed are meshes in OBJ, PLY, STL, OFF or glTF");
   if (std::none_of(mesh.triangle.begin(), mesh.triangle.end(), [&](const auto& t) { return has_area(mesh, t); }))
     refuse(path, 1, "has no area: the corners of each of its triangles lie on one line");
   return mesh;

@@ -87,7 +87,7 @@ TEST_CASE("what is no mesh is refused with place and cause") {
   CHECK(fault("b.obj", "v 0 0 0\nf 1 2 3\n") ==
         ":2:1: \"2\" is no vertex; allowed: a number of one of the lines v above it");
   CHECK(fault("c.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n") == ":3:1: is no face; allowed: f and three vertices or more");
-  CHECK(fault("d.obj", "v 0 0 0\n") == ":1:1: holds no triangle; allowed are meshes in OBJ or PLY");
+  CHECK(fault("d.obj", "v 0 0 0\n") == ":1:1: holds no triangle; allowed are meshes in OBJ, PLY, STL, OFF or glTF");
   CHECK(fault("e.ply", "ply\nformat binary_big_endian 1.0\n") ==
         ":2:1: format binary_big_endian is not read; allowed: ascii, binary_little_endian");
   CHECK(fault("f.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n") ==

@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "components/config/config_error.h"
 #include "components/terrain/object_message.h"
+#include "kernels/mesh/solids/rest.h"
 
 namespace ensonify::source {
 namespace {
 
 constexpr double kSagitta = 0.01;  // of its size: to see where it stands, and what stands in its way
+constexpr double kFewestPosts = 8.0, kMostPosts = 64.0;  // of the ground, across an object
 
 msg::Object message_of(const SceneObject& object) {
   msg::Object message;
@@ -34,13 +37,45 @@ Eigen::AlignedBox3d box_of(const progressive::TriangleMesh& mesh) {
   return box;
 }
 
+/// Heights under an object and a little beyond; where the ground has a hole it is as at the middle.
+solids::GroundPatch patch_under(const TerrainSource& ground, const frames::Vec2& place_m, double reach_m,
+                                double ground_m) {
+  const double spacing_m =
+      std::clamp(ground.native_spacing_m(), 2.0 * reach_m / kMostPosts, 2.0 * reach_m / kFewestPosts);
+  const auto half = static_cast<Eigen::Index>(std::ceil(reach_m / spacing_m)) + 1;
+  solids::GroundPatch patch{place_m - frames::Vec2::Constant(spacing_m * static_cast<double>(half)), spacing_m, {}};
+  patch.height_m.resize(2 * half + 1, 2 * half + 1);
+  for (Eigen::Index n = 0; n <= 2 * half; ++n) {
+    for (Eigen::Index e = 0; e <= 2 * half; ++e) {
+      const double height_m =
+          ground.height_m(patch.corner_m + spacing_m * frames::Vec2(static_cast<double>(e), static_cast<double>(n)));
+      patch.height_m(n, e) = std::isfinite(height_m) ? height_m : ground_m;
+    }
+  }
+  return patch;
+}
+
+/// Lays it down in balance.
+void lay(const SceneObject& object, const solids::Solid& solid, const TerrainSource& ground, double ground_m,
+         msg::Object& message) {
+  const double radius_m = solids::radius_m(solid);
+  const frames::Vec2 place = object.place.position_enu_m.head<2>();
+  const solids::GroundPatch patch = patch_under(ground, place, radius_m, ground_m);
+  const solids::Surface surface = solids::surface_of(solid, kSagitta * radius_m);
+  const auto places = solids::places_of(surface, patch.spacing_m);
+  const auto rest =
+      solids::at_rest(places, solids::centre_of_mass(surface.mesh), object.place.enu_from_object(), place, patch);
+  message.enu_from_object = frames::wxyz_of(frames::Quaternion(rest.turn));
+  message.position_enu_m[2] = rest.height_m;
+}
+
 }  // namespace
 
 void refuse(const SceneObject& object, const std::string& why) {
   throw ConfigError({ConfigProblem{object.written, "objects." + object.name, why}});
 }
 
-PlacedObject placed_object(const SceneObject& object, const TerrainSource& ground) {
+PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, const TerrainSource& ground) {
   const frames::Vec2 place = object.place.position_enu_m.head<2>();
   const Extent known = ground.extent();
   if (!known.contains(place))
@@ -48,13 +83,19 @@ PlacedObject placed_object(const SceneObject& object, const TerrainSource& groun
                                "{:.0f} to {:.0f} m",
                                place.x(), place.y(), known.west_m, known.east_m, known.south_m, known.north_m));
   const double ground_m = ground.height_m(place);
+  if ((object.place.rests || object.place.buried_share) && !std::isfinite(ground_m))
+    refuse(object, fmt::format("stands at ({:g}, {:g}) m, where the terrain has a hole; allowed is a place with ground",
+                               place.x(), place.y()));
   PlacedObject placed{message_of(object), {}, {}};
-  placed.surface = surface_of(placed.message, kSagitta * radius_m(object.solid));
+  solids::Solid solid = object.solid;
+  if (object.file) {
+    const ObjectMeshFile& file = meshes.of(object);
+    placed.message.mesh = file.number;
+    solid = solid_of(placed.message, &file.mesh);
+  }
+  if (object.place.rests) lay(object, solid, ground, ground_m, placed.message);
+  placed.surface = surface_of(placed.message, solid, kSagitta * radius_m(solid));
   if (object.place.buried_share) {
-    if (!std::isfinite(ground_m))
-      refuse(object,
-             fmt::format("stands at ({:g}, {:g}) m, where the terrain has a hole; allowed is a place with ground",
-                         place.x(), place.y()));
     const double below_m = solids::height_of_share_m(placed.surface.mesh, *object.place.buried_share);
     placed.surface.mesh.origin_enu_m.z() = placed.message.position_enu_m[2] = ground_m - below_m;
   }

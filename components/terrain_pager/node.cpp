@@ -91,6 +91,8 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       meshes_out_(
           ports.out<msg::Mesh>("mesh", {.max_bytes = meshes_.max_bytes(), .rate = all_at_once(meshes_.count())})),
       mesh_releases_(ports.out<msg::MeshRelease>("mesh_release", {.rate = all_at_once(meshes_.count())})),
+      object_meshes_(ports.out<msg::ObjectMesh>(
+          "object_mesh", {.max_bytes = objects_.max_bytes(), .rate = all_at_once(objects_.mesh_count())})),
       objects_out_(ports.out<msg::Object>("object", {.rate = all_at_once(objects_.count())})),
       object_releases_(ports.out<msg::ObjectRelease>("object_release", {.rate = all_at_once(objects_.count())})),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
@@ -212,7 +214,10 @@ paging::Motion TerrainPagerNode::motion_of(const msg::Pose& pose) {
 }
 
 void TerrainPagerNode::page(const msg::Pose& pose) {
-  if (!paging_) start_paging();
+  if (!paging_) {
+    start_paging();
+    for (const std::string& said : objects_.said()) log::event(ports_, "object_mesh", "{}", said);
+  }
   const paging::Motion motion = motion_of(pose);
   const auto decision = paging_->update(motion);
   store_->hold(decision.in_memory);
@@ -258,6 +263,7 @@ void TerrainPagerNode::exchange_meshes(const Vec2& place_enu_m) {
 
 void TerrainPagerNode::exchange_objects(const Vec2& place_enu_m) {
   const auto decision = objects_.update(place_enu_m, margins_);
+  for (const msg::ObjectMesh* mesh : decision.meshes) object_meshes_.send(*mesh);
   for (const msg::Object* object : decision.publish) {
     objects_out_.send(*object);
     ports_.count("objects_published");

@@ -81,6 +81,7 @@ class TerrainPagerNode {
   Ports::Out<msg::TileRelease> releases_;
   Ports::Out<msg::Mesh> meshes_out_;
   Ports::Out<msg::MeshRelease> mesh_releases_;
+  Ports::Out<msg::ObjectMesh> object_meshes_;
   Ports::Out<msg::Object> objects_out_;
   Ports::Out<msg::ObjectRelease> object_releases_;
   Ports::Out<msg::Chart> chart_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "components/terrain/terrain_source.h"
@@ -18,13 +19,19 @@ class Objects {
   Objects(const TerrainPagerConfig& config, const source::TerrainSource& terrain);
 
   struct Decision {
-    std::vector<const msg::Object*> publish;  // in the scenario's order
+    std::vector<const msg::ObjectMesh*> meshes;  // of the objects that follow, each once in a run
+    std::vector<const msg::Object*> publish;     // in the scenario's order
     std::vector<std::int64_t> release;
   };
   /// An update for where the vehicle is.
   Decision update(const frames::Vec2& place_enu_m, const paging::Margins& margins);
 
   std::size_t count() const { return objects_.size(); }
+  std::size_t mesh_count() const { return meshes_.size(); }
+  /// Of a mesh's message.
+  std::size_t max_bytes() const;
+  /// What was guessed or mended of meshes, a line each.
+  const std::vector<std::string>& said() const { return said_; }
 
  private:
   struct One {
@@ -32,7 +39,13 @@ class Objects {
     paging::Box box;  // seen from above
     bool at_heads = false;
   };
+  struct Shape {
+    msg::ObjectMesh message;
+    bool at_heads = false;
+  };
   std::vector<One> objects_;
+  std::vector<Shape> meshes_;  // by their numbers
+  std::vector<std::string> said_;
 };
 
 }  // namespace ensonify::pager

@@ -2,9 +2,11 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/config/parameters.h"
 #include "components/vehicle/dynamics_file.h"
+#include "components/vehicle/pilots.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -19,12 +21,15 @@ struct VehicleWater {
 struct VehicleParameters {
   std::string vehicle;
   int pose_rate_hz = 100;
+  std::vector<PilotKeys> steered_by;
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
           self.vehicle);
     visit("pose_rate_hz", "Hz", in(1, 1000), "true poses published per second", self.pose_rate_hz);
+    visit("steered_by", "processes that may steer it by their topic command: the first whose commands come does",
+          self.steered_by);
   }
 };
 

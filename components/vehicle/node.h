@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "components/runtime/ports.h"
 #include "components/vehicle/model.h"
+#include "components/vehicle/pilots.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -19,13 +22,19 @@ class VehicleNode {
   SimTime step(SimTime now);
 
  private:
+  void declare_command();
+  void take(const std::string& pilot, const msg::Guidance& guidance);
+  void report_helm(SimTime now);
+
   VehicleConfig config_;
   Ports& ports_;
-  Periodic poses_due_;
+  Periodic poses_due_, helm_due_;
   std::optional<VehicleModel> vehicle_;  // empty until it is known where to start
-  std::optional<msg::Guidance> command_;
+  Pilots pilots_;
+  std::int64_t refused_ = 0;
   std::optional<msg::Chart> chart_;
   Ports::Out<msg::Pose> poses_;
+  std::optional<Ports::Out<msg::Helm>> helms_;  // only with several pilots
 };
 
 }  // namespace ensonify

@@ -256,6 +256,7 @@ Mission MissionKeys::mission(const std::optional<frames::Geodetic>& origin) cons
   }
   const Places places(plan_from_ ? *plan_from_ : from, geodetic, origin);
   std::visit([&](const auto& form) { lay(form, places, mission); }, plan);
+  if (mission.home_enu_m) places.place("home_m", *mission.home_enu_m);
   mission.runlines = straight_pieces(mission.steps);
   check_altitudes(from, mission);
   return mission;

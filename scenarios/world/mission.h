@@ -188,6 +188,9 @@ struct AbortRules {
   }
 };
 
+/// What an autopilot does with a vehicle that it gets because the pilot before it fell silent.
+enum class WhenSilent { kGoOn, kHold, kSurface, kHome };
+
 struct Mission {
   double speed_mps = 2.0;
   double depth_m = 0.0;
@@ -201,6 +204,8 @@ struct Mission {
   std::optional<AutoPlan> auto_plan;        // set: `steps` is empty until it has been resolved
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
   AbortRules abort;
+  WhenSilent when_silent = WhenSilent::kGoOn;
+  std::optional<runlines::Vec2> home_enu_m;  // not given: where the autopilot first found the vehicle
 
   /// What of it has one value; steps and plans are in MissionKeys.
   static void parameters(auto& self, auto&& visit) {
@@ -214,6 +219,16 @@ struct Mission {
     visit("run_out_m", "m", in(0, 10000), "straight way behind each line", self.run_out_m);
     visit("repeat", "", in(1, 100000), "times that the steps are run", self.repeat);
     visit("abort", "rules for giving the mission up: come to the surface, stop and end the run", self.abort);
+    visit("when_silent", "",
+          one_of({{"go_on", WhenSilent::kGoOn},
+                  {"hold", WhenSilent::kHold},
+                  {"surface", WhenSilent::kSurface},
+                  {"home", WhenSilent::kHome}}),
+          "act of the autopilot when a pilot that steered in its place falls silent: the mission goes on, it holds its "
+          "position, gives the mission up, or goes home and stays there",
+          self.when_silent);
+    visit("home_m", "", place(), "position to go home to, as positions says; left out: where the vehicle began",
+          self.home_enu_m);
   }
   /// Depth at which each of `runlines` is run, below the water level; nothing where the bottom is followed.
   std::vector<std::optional<double>> runline_depths_m() const;

@@ -1,19 +1,98 @@
 #include "scenarios/world/objects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "components/config/config_reader.h"
+#include "kernels/base/random/stream.h"
+#include "kernels/mesh/solids/words.h"
 #include "scenarios/world/object_keys.h"
 
 namespace ensonify {
 namespace {
 
-void put(const ObjectOnSeabed& on, ObjectPlace& place) {
-  place.position_enu_m.head<2>() = on.keys.at_enu_m;
-  place.buried_share = on.keys.burial;
+using frames::Vec2;
+
+constexpr int kMostDraws = 1000;  // of a position, until it is far enough from the others
+enum Draw : std::uint64_t { kAlong, kAcross, kScale, kHeading, kBurial };
+
+/// Positions that are found by where they are.
+class Apart {
+ public:
+  explicit Apart(double apart_m) : apart_m_(apart_m) {}
+
+  /// Takes a position unless one is nearer than the distance.
+  bool take(const Vec2& place_m) {
+    if (apart_m_ == 0.0) return true;
+    const auto [east, north] = cell(place_m);
+    for (long e = east - 1; e <= east + 1; ++e) {
+      for (long n = north - 1; n <= north + 1; ++n) {
+        const auto [first, last] = taken_.equal_range({e, n});
+        for (auto at = first; at != last; ++at) {
+          if ((at->second - place_m).norm() < apart_m_) return false;
+        }
+      }
+    }
+    taken_.emplace(std::pair(east, north), place_m);
+    return true;
+  }
+
+ private:
+  std::pair<long, long> cell(const Vec2& place_m) const {
+    return {std::lround(std::floor(place_m.x() / apart_m_)), std::lround(std::floor(place_m.y() / apart_m_))};
+  }
+
+  double apart_m_;
+  std::multimap<std::pair<long, long>, Vec2> taken_;  // by cell
+};
+
+double between(const std::array<double, 2>& limits, double share) {
+  return limits[0] + share * (limits[1] - limits[0]);
 }
-void put(const ObjectInWater& in, ObjectPlace& place) { place.position_enu_m = in.position_enu_m; }
+
+solids::Solid scaled(const solids::Solid& solid, double factor) {
+  auto sizes = solids::sizes_of(solid);
+  for (double& size : sizes) size *= factor;
+  if (auto found = solids::solid_of(solids::word_of(solid), sizes)) return *std::move(found);
+  solids::Mesh mesh = std::get<solids::Mesh>(solid);
+  mesh.scale = sizes[0];
+  return mesh;
+}
+
+std::vector<SceneObject> strewn(const StrewnObjectKeys& keys, const SceneObject& like, const ConfigReader& from,
+                                std::uint64_t seed) {
+  const random::Stream stream(seed, "objects/" + like.name);
+  const Vec2 along = keys.to_enu_m - keys.from_enu_m;
+  const Vec2 across = along.norm() > 0.0 ? Vec2(Vec2(along.y(), -along.x()).normalized()) : Vec2(1.0, 0.0);
+  Apart apart(keys.apart_m);
+  std::vector<SceneObject> objects;
+  for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(keys.count); ++i) {
+    const auto drawn = [&](Draw what, std::uint64_t again = 0) { return stream.uniform(i, what, again); };
+    Vec2 place;
+    std::uint64_t draw = 0;
+    do {
+      place = keys.from_enu_m + drawn(kAlong, draw) * along + (drawn(kAcross, draw) - 0.5) * keys.width_m * across;
+    } while (!apart.take(place) && ++draw < kMostDraws);
+    if (draw == kMostDraws) {
+      from.problem(
+          "objects." + like.name + ".strewn.apart_m",
+          fmt::format("keeps {} of {} objects apart there; allowed: fewer, nearer, or more room", i, keys.count));
+      return objects;
+    }
+    SceneObject& object = objects.emplace_back(like);
+    object.name = fmt::format("{}_{}", like.name, i + 1);
+    object.place.position_enu_m.head<2>() = place;
+    const std::array<double, 2> log_scale{std::log(keys.scale[0]), std::log(keys.scale[1])};
+    object.solid = scaled(like.solid, std::exp(between(log_scale, drawn(kScale))));
+    object.place.heading_rad = between(keys.heading_rad, drawn(kHeading));
+    if (keys.burial) object.place.buried_share = between(*keys.burial, drawn(kBurial));
+  }
+  return objects;
+}
 
 }  // namespace
 
@@ -23,21 +102,29 @@ Eigen::Matrix3d ObjectPlace::enu_from_object() const {
          Eigen::AngleAxisd(-heading_rad, frames::Vec3::UnitZ()).toRotationMatrix();
 }
 
-const char* shape_of(const solids::Solid& solid) {
-  constexpr const char* kWords[] = {ObjectSphere::kWord, ObjectBox::kWord, ObjectCylinder::kWord, ObjectPlate::kWord};
-  return kWords[solid.index()];
+void StrewnObjectKeys::check(const ConfigReader& from) const {
+  const auto rises = [&](const char* key, const std::array<double, 2>& limits) {
+    if (limits[0] > limits[1]) from.problem(key, "falls; allowed is [least, most]");
+  };
+  rises("scale", scale);
+  rises("heading_deg", heading_rad);
+  if (burial) rises("burial", *burial);
 }
+
+void StrewnObjectKeys::complete(ConfigReader& from) { place = from.node().place; }
 
 void ObjectKeys::complete(ConfigReader& from) { written = from.node().place; }
 
-SceneObject ObjectKeys::object() const {
+/// All but where it stands.
+SceneObject ObjectKeys::common() const {
   SceneObject object;
   object.name = name;
-  std::visit([&](const auto& of) { object.solid = of.keys; }, form);
-  std::visit([&](const auto& at) { put(at, object.place); }, where);
-  object.class_name = class_name.empty() ? shape_of(object.solid) : class_name;
+  object.solid = std::visit([](const auto& of) { return of.solid(); }, form);
+  if (const auto* mesh = std::get_if<ObjectMesh>(&form))
+    object.file = ObjectFile{mesh->keys.path, mesh->keys.unit_m, mesh->keys.y_is_up};
+  object.class_name = class_name.empty() ? solids::word_of(object.solid) : class_name;
   object.place.heading_rad = heading_rad;
-  object.place.tilt_rad = tilt_rad;
+  object.place.tilt_rad = tilt_rad.value_or(0.0);
   object.place.tilt_heading_rad = tilt_heading_rad;
   object.smooth = material == Material::kSmooth;
   object.sediment = sediment;
@@ -45,18 +132,37 @@ SceneObject ObjectKeys::object() const {
   return object;
 }
 
-std::vector<SceneObject> objects_of(const ConfigReader& from, const std::vector<ObjectKeys>& keys,
-                                    const Seabed& seabed) {
+std::vector<SceneObject> ObjectKeys::objects(const ConfigReader& from, std::uint64_t seed) const {
+  SceneObject object = common();
+  if (const auto* many = std::get_if<ObjectStrewn>(&where)) {
+    object.place.rests = !many->keys.burial && !tilt_rad;
+    if (!object.place.rests) object.place.buried_share = 0.0;
+    return strewn(many->keys, object, from, seed);
+  }
+  if (const auto* on = std::get_if<ObjectOnSeabed>(&where)) {
+    object.place.position_enu_m.head<2>() = on->keys.at_enu_m;
+    object.place.rests = !on->keys.burial && !tilt_rad;
+    if (!object.place.rests) object.place.buried_share = on->keys.burial.value_or(0.0);
+  } else {
+    object.place.position_enu_m = std::get<ObjectInWater>(where).position_enu_m;
+  }
+  return {object};
+}
+
+std::vector<SceneObject> objects_of(const ConfigReader& from, const std::vector<ObjectKeys>& keys, const Seabed& seabed,
+                                    std::uint64_t seed) {
   std::vector<SceneObject> objects;
   std::vector<std::string> classes;
   for (const ObjectKeys& one : keys) {
-    SceneObject& object = objects.emplace_back(one.object());
-    object.instance = static_cast<std::uint32_t>(objects.size());
-    auto at = std::ranges::find(classes, object.class_name);
-    if (at == classes.end()) at = classes.insert(classes.end(), object.class_name);
-    object.class_id = static_cast<std::uint32_t>(at - classes.begin()) + 1;
-    if (!object.smooth && !seabed.sediments.contains(object.sediment))
-      from.problem("objects." + object.name + ".sediment", "is not a class of seabed.sediments");
+    if (one.material == ObjectKeys::Material::kDiffuse && !seabed.sediments.contains(one.sediment))
+      from.problem("objects." + one.name + ".sediment", "is not a class of seabed.sediments");
+    for (SceneObject& object : one.objects(from, seed)) {
+      object.instance = static_cast<std::uint32_t>(objects.size()) + 1;
+      auto at = std::ranges::find(classes, object.class_name);
+      if (at == classes.end()) at = classes.insert(classes.end(), object.class_name);
+      object.class_id = static_cast<std::uint32_t>(at - classes.begin()) + 1;
+      objects.push_back(std::move(object));
+    }
   }
   return objects;
 }

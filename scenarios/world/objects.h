@@ -12,7 +12,8 @@ namespace ensonify {
 /// Where an object stands: its middle anywhere, or on the seabed.
 struct ObjectPlace {
   frames::Vec3 position_enu_m = frames::Vec3::Zero();  // up only where it hangs
-  std::optional<double> buried_share;                  // of its volume, 0..1; nothing: it hangs
+  std::optional<double> buried_share;                  // of its volume, 0..1
+  bool rests = false;                                  // lies on the seabed in balance, turned by its heading only
   double heading_rad = 0.0;                            // of its y axis, clockwise from north
   double tilt_rad = 0.0;                               // of its upright from the vertical
   double tilt_heading_rad = 0.0;                       // towards which it leans, clockwise from north
@@ -21,20 +22,25 @@ struct ObjectPlace {
   Eigen::Matrix3d enu_from_object() const;
 };
 
+/// Where a shape is read from, in the place of a solid.
+struct ObjectFile {
+  std::string path;
+  std::optional<double> unit_m;  // of the file; nothing: guessed by its size
+  bool y_is_up = false;          // else z
+};
+
 /// A thing that is known one by one: it has a class and a number of its own in labels.
 struct SceneObject {
   std::string name;
   std::string class_name;      // of labels
   std::uint32_t class_id = 0;  // from 1, in the order in which the scenario's classes come
   std::uint32_t instance = 0;  // from 1, in the scenario's order
-  solids::Solid solid;
+  solids::Solid solid;         // of a file: a mesh without triangles
+  std::optional<ObjectFile> file;
   ObjectPlace place;
   bool smooth = false;        // its echo follows from its shape alone; else it scatters as its sediment
   std::uint8_t sediment = 0;  // one of Seabed::sediments
   ConfigPlace written;        // for messages
 };
-
-/// The word of its shape: sphere, box, cylinder, plate.
-const char* shape_of(const solids::Solid& solid);
 
 }  // namespace ensonify

@@ -1,10 +1,14 @@
 #include "scenarios/world/objects.h"
 
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 #include <string>
 
 #include "components/config/config_reader.h"
+#include "kernels/mesh/solids/words.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -63,12 +67,95 @@ TEST_CASE("objects are read, numbered, and their classes too") {
             .norm() < 1e-12);
   // The cylinder's axis points 60 degrees east of north.
   CHECK((mine.place.enu_from_object().col(1) - frames::Vec3(std::sqrt(0.75), 0.5, 0)).norm() < 1e-12);
-  CHECK(std::string(shape_of(world.objects[3].solid)) == "plate");
+  CHECK(world.objects[3].class_name == "plate");
+}
+
+TEST_CASE("what lies on the seabed without burial and tilt lies in balance") {
+  const World world = world_of(
+      "  rests: {box: {size_m: [1, 1, 1]}, on_seabed: {at_m: [0, 0]}, heading_deg: 30}\n"
+      "  buried: {box: {size_m: [1, 1, 1]}, on_seabed: {at_m: [0, 0], burial: 0}}\n"
+      "  tilted: {box: {size_m: [1, 1, 1]}, on_seabed: {at_m: [0, 0]}, tilt_deg: 0}\n"
+      "  hangs: {box: {size_m: [1, 1, 1]}, position_m: [0, 0, -5]}\n");
+  CHECK(world.objects[0].place.rests);
+  CHECK_FALSE(world.objects[0].place.buried_share);
+  for (const int i : {1, 2}) {
+    CHECK_FALSE(world.objects[i].place.rests);
+    CHECK(world.objects[i].place.buried_share == 0.0);
+  }
+  CHECK_FALSE(world.objects[3].place.rests);
+}
+
+TEST_CASE("every shape is read with its sizes, and has its word for a class") {
+  const auto sizes = [](const std::string& shape) {
+    const SceneObject object = world_of("  a: {" + shape + ", on_seabed: {at_m: [0, 0]}}\n").objects.at(0);
+    CHECK(object.class_name == shape.substr(0, shape.find(':')));
+    CHECK(object.class_name == solids::word_of(object.solid));
+    CHECK(solids::solid_of(object.class_name, solids::sizes_of(object.solid))->index() == object.solid.index());
+    return solids::sizes_of(object.solid);
+  };
+  using Sizes = std::array<double, 3>;
+  CHECK(sizes("cone: {diameter_m: 1, height_m: 2}") == Sizes{1, 0, 2});
+  CHECK(sizes("tyre: {}") == Sizes{0.65, 0.2, 0});
+  CHECK(sizes("pipe: {diameter_m: 0.5, length_m: 6, wall_m: 0.02}") == Sizes{0.5, 6, 0.02});
+  CHECK(sizes("bottle: {}") == Sizes{0.08, 0.3, 0});
+  CHECK(sizes("shell: {diameter_m: 0.2}") == Sizes{0.2, 0.7, 0});
+  CHECK(sizes("wedge: {size_m: [1, 2, 0.5]}") == Sizes{1, 2, 0.5});
+  CHECK(sizes("ladder: {}") == Sizes{0.45, 3, 0.06});
+  for (const char* figure : {"trap", "anchor", "mooring", "person", "boat", "aircraft", "propeller"})
+    CHECK(sizes(std::string(figure) + ": {size_m: [1, 2, 3]}") == Sizes{1, 2, 3});
+}
+
+TEST_CASE("objects are strewn by the scenario's seed") {
+  const std::string mines =
+      "  mines: {class: mine, cylinder: {diameter_m: 0.5, length_m: 2}, strewn: {count: 200, from_m: [-100, 0], "
+      "to_m: [100, 0], width_m: 60, apart_m: 3, scale: [0.5, 2], heading_deg: [0, 90], burial: [0.1, 0.4]}}\n";
+  const World world = world_of(mines + "  last: {sphere: {diameter_m: 1}, on_seabed: {at_m: [0, 0]}}\n");
+  REQUIRE(world.objects.size() == 201);
+  CHECK(world.objects[0].name == "mines_1");
+  CHECK(world.objects[199].name == "mines_200");
+  CHECK(world.objects[200].instance == 201);
+  CHECK(world.objects[200].class_id == 2);
+  double least_apart_m = 1e9, smallest_m = 1e9, largest_m = 0.0;
+  for (std::size_t i = 0; i < 200; ++i) {
+    const SceneObject& mine = world.objects[i];
+    const auto place = mine.place.position_enu_m.head<2>();
+    CHECK(std::abs(place.x()) <= 100.0);
+    CHECK(std::abs(place.y()) <= 30.0);
+    CHECK(mine.place.heading_rad >= 0.0);
+    CHECK(mine.place.heading_rad <= std::numbers::pi / 2);
+    CHECK(mine.place.buried_share.value() >= 0.1);
+    CHECK(mine.place.buried_share.value() <= 0.4);
+    const auto& cylinder = std::get<solids::Cylinder>(mine.solid);
+    CHECK(cylinder.length_m == Approx(4.0 * cylinder.diameter_m));
+    smallest_m = std::min(smallest_m, cylinder.diameter_m), largest_m = std::max(largest_m, cylinder.diameter_m);
+    for (std::size_t j = 0; j < i; ++j)
+      least_apart_m = std::min(least_apart_m, (world.objects[j].place.position_enu_m.head<2>() - place).norm());
+  }
+  CHECK(least_apart_m >= 3.0);
+  CHECK(smallest_m >= 0.25);
+  CHECK(smallest_m < 0.3);
+  CHECK(largest_m <= 1.0);
+  CHECK(largest_m > 0.9);
+  CHECK(world_of(mines).objects[7].place.position_enu_m == world.objects[7].place.position_enu_m);
+  CHECK(
+      world_of("  x: {sphere: {diameter_m: 1}, on_seabed: {at_m: [0, 0]}}\n" + mines).objects[8].place.position_enu_m ==
+      world.objects[7].place.position_enu_m);  // others do not move them
+}
+
+TEST_CASE("more objects than there is room for are a problem") {
+  CHECK(problems_of(
+            "sphere: {diameter_m: 1}, strewn: {count: 100, from_m: [0, 0], to_m: [10, 0], width_m: 1, apart_m: 2}")
+            .find("objects.a.strewn.apart_m: keeps ") != std::string::npos);
+  CHECK(problems_of(
+            "sphere: {diameter_m: 1}, strewn: {count: 1, from_m: [0, 0], to_m: [10, 0], width_m: 1, scale: [2, 1]}")
+            .find("objects.a.strewn.scale: falls; allowed is [least, most]") != std::string::npos);
 }
 
 TEST_CASE("objects with a mistake are refused with their place") {
-  CHECK(problems_of("on_seabed: {at_m: [0, 0]}") == "s.yaml:6:6: objects.a: needs one of sphere, box, cylinder, plate");
-  CHECK(problems_of("sphere: {diameter_m: 1}") == "s.yaml:6:6: objects.a: needs one of on_seabed, position_m");
+  CHECK(problems_of("on_seabed: {at_m: [0, 0]}") ==
+        "s.yaml:6:6: objects.a: needs one of sphere, box, cylinder, plate, cone, tyre, pipe, bottle, "
+        "shell, wedge, ladder, trap, anchor, mooring, person, boat, aircraft, propeller, mesh");
+  CHECK(problems_of("sphere: {diameter_m: 1}") == "s.yaml:6:6: objects.a: needs one of on_seabed, position_m, strewn");
   CHECK(problems_of("sphere: {diameter_m: 1}, box: {size_m: [1, 1, 1]}, position_m: [0, 0, -5]") ==
         "s.yaml:6:37: objects.a.box: stands beside sphere; give one shape");
   CHECK(problems_of("sphere: {diameter_m: 1}, position_m: [0, 0, -5], on_seabed: {at_m: [0, 0]}") ==

@@ -186,7 +186,7 @@ World read_world(ConfigReader& from, const std::string& file, std::string* writt
   world.vertical = keys.vertical.vertical(from, start_unix_s);
   world.current = keys.current.current(start_unix_s);
   world.seabed = keys.seabed.seabed();
-  world.objects = objects_of(from, keys.objects, world.seabed);
+  world.objects = objects_of(from, keys.objects, world.seabed, world.seed);
   for (const VehicleKeys& vehicle : keys.vehicles) world.vehicles.push_back(vehicle.vehicle());
   world.seabed.layered.seed = world.seed;
   world.seabed.layered.file = file;

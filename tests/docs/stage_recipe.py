@@ -17,6 +17,7 @@ import tempfile
 # Page, example to copy, component made of it, and the line that names it to the build.
 RECIPES = (
     ("docs/manual/adding-a-component.md", "gyro", "compass", "ensonify_component(compass CompassNode)"),
+    ("docs/manual/agent-in-cpp.md", "altitude_agent", "my_agent", "ensonify_component(my_agent MyAgentNode)"),
     ("docs/adding-a-head.md", "profiler", "pencil", "ensonify_component(pencil PencilNode)"),
 )
 

@@ -136,7 +136,7 @@ MESHES = [
     ("a mesh that is not there", "{ file: no.obj }", "world.yaml:.* seabed.meshes.quay.file: .*no such file or folder"),
     ("a mesh of numbers that are none", "{ file: holed.obj }", "holed.obj:1:1: .*is no vertex; allowed: v and three numbers"),
     ("a mesh with a corner nowhere", "{ file: loose.obj }", 'loose.obj:4:1: .*"7" is no vertex; allowed'),
-    ("a mesh of no triangles", "{ file: points.obj }", "points.obj:1:1: .*holds no triangle; allowed are meshes in OBJ or PLY"),
+    ("a mesh of no triangles", "{ file: points.obj }", "points.obj:1:1: .*holds no triangle; allowed are meshes in OBJ, PLY, STL, OFF or glTF"),
     ("a mesh that ends early", "{ file: cut.ply }", "cut.ply:1:1: .*ends within its 3 elements vertex"),
     ("a mesh of another kind", "{ file: tide.csv }", "tide.csv:1:1: .*holds no triangle"),
     ("a mesh of a map's coordinates", "{ file: far.obj }",

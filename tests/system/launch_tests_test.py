@@ -51,7 +51,7 @@ class Batches(SystemTest):
         return (self.folder / out / "results.csv").read_text()
 
     def test_shipped_launch_tests_hold(self):
-        done = self.ensonify_test(SHIPPED, "--out", self.folder / "out", "--jobs", 2, timeout=300)
+        done = self.ensonify_test(SHIPPED, "--out", self.folder / "out", "--jobs", 2, timeout=400)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn(f"{len(list(SHIPPED.glob('*.yaml')))} passed, 0 failed, 0 skipped", done.stdout)
 
@@ -60,6 +60,13 @@ class Batches(SystemTest):
                                ("altitude_over_a_step", "vertical_speed_mps: 0.8", "vertical_speed_mps: 0.02"),
                                ("estimate_lost", "from_s: 30, to_s: 33", "from_s: 5, to_s: 75"),
                                ("wrong_commands", "value: nan", "value: 0.0"),
+                               ("agent_silent", "timeout_s: 2", "timeout_s: 20"),
+                               ("gnss_outage", "grade: tactical", "grade: mems"),
+                               ("special_order", "0.8] }, measured", "0.8], roll_deg: 1 }, measured"),
+                               ("wall_distance", "pilot: { run: autopilot }", "pilot: { run: autopilot, config: { drift_settle_s: 0 } }"),
+                               ("target_passed", "speed_mps: 0.4", "speed_mps: 1.0"),
+                               ("cross_talk", "mode: interleaved", "mode: free"),
+                               ("coverage_complete", "ping_rate_hz: 3", "ping_rate_hz: 0.4"),
                                ("killed", "at_s: 4", "at_s: 400")):
             with self.subTest(name):
                 text = (SHIPPED / f"{name}.yaml").read_text()

@@ -8,6 +8,7 @@ import unittest
 
 import ensonify
 import numpy as np
+from nmea import free_port, sentence
 from support import SHARED, SOURCE, SystemTest
 
 LOG = SHARED / "data/nav/nbp1406_seapath330.nmea"
@@ -19,34 +20,21 @@ def degrees(text, half):
     return (1 if half in "NE" else -1) * (math.floor(value / 100) + value % 100 / 60)
 
 
-def with_sum(body):
-    total = 0
-    for byte in body.encode():
-        total ^= byte
-    return f"${body}*{total:02X}\r\n"
-
-
 def blocks(seconds):
     """Second by second: GGA and HDT as they were logged, and PASHR made of the log's PSXN,23, which gives the same."""
     found = []
     for line in LOG.read_text().splitlines():
-        sentence = line.split(" ", 1)[1]
-        fields = sentence[1:].split("*")[0].split(",")
+        logged = line.split(" ", 1)[1]
+        fields = logged[1:].split("*")[0].split(",")
         if fields[0] == "INGGA":
-            found.append({"time": fields[1], "lat": degrees(*fields[2:4]), "lon": degrees(*fields[4:6]), "text": sentence + "\r\n"})
+            found.append({"time": fields[1], "lat": degrees(*fields[2:4]), "lon": degrees(*fields[4:6]), "text": logged + "\r\n"})
         elif found and fields[0] == "INHDT":
-            found[-1].update(heading=float(fields[1]), text=found[-1]["text"] + sentence + "\r\n")
+            found[-1].update(heading=float(fields[1]), text=found[-1]["text"] + logged + "\r\n")
         elif found and fields[:2] == ["PSXN", "23"]:
             roll, pitch, heading, heave = map(float, fields[2:6])
             body = f"PASHR,{float(found[-1]['time']):010.3f},{heading:.2f},T,{roll:+.2f},{pitch:+.2f},{heave:+.2f},0.05,0.05,0.1,1,1"
-            found[-1].update(roll=roll, pitch=pitch, heave=heave, text=found[-1]["text"] + with_sum(body))
+            found[-1].update(roll=roll, pitch=pitch, heave=heave, text=found[-1]["text"] + sentence(body))
     return found[:seconds]
-
-
-def free_port():
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 @unittest.skipUnless(LOG.exists(), f"{LOG} is not there: the log that is sent")

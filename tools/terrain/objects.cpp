@@ -35,7 +35,9 @@ nlohmann::ordered_json json_of(const source::PlacedObject& placed) {
 int print_objects(const std::string& scenario) {
   const Opened opened = open_seabed(scenario);
   auto all = nlohmann::ordered_json::array();
-  for (const SceneObject& object : opened.objects) all.push_back(json_of(placed_object(object, *opened.terrain)));
+  source::ObjectMeshes files;
+  for (const SceneObject& object : opened.objects)
+    all.push_back(json_of(placed_object(object, files, *opened.terrain)));
   fmt::print("{}\n", all.dump());
   return kExitOk;
 }

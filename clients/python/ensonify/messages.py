@@ -23,6 +23,7 @@ __all__ = [
     "Coverage",
     "Pose",
     "Guidance",
+    "Helm",
     "MissionState",
     "Attitude",
     "Position",
@@ -52,6 +53,7 @@ __all__ = [
     "Mesh",
     "MeshRelease",
     "Object",
+    "ObjectMesh",
     "ObjectRelease",
     "Chart",
 ]
@@ -315,6 +317,8 @@ class Guidance(Message):
     heading_grid_rad [rad]: heading to steer, clockwise from grid north
     speed_mps [m/s]: speed through the water to reach, forward
     depth_m [m]: depth of the body origin below the water level to hold; NaN: as before
+    vehicle: name of the vehicle that is meant; empty: whichever receives it
+    hand_back [1]: true: the vehicle is handed to the next of those who may steer it
     """
 
     TYPE = "guidance/1"
@@ -322,6 +326,27 @@ class Guidance(Message):
     heading_grid_rad: float = 0.0
     speed_mps: float = 0.0
     depth_m: float = float("nan")
+    vehicle: str = ""
+    hand_back: bool = False
+
+
+@dataclass(eq=False)
+class Helm(Message):
+    """Who steers a vehicle, of several that may, and why.
+
+    stamp_ns [ns]: time of the state, sim time
+    steered_by: name of the pilot whose commands are obeyed; empty: nobody's
+    pilots: names of those who may steer it, the first before the others
+    why: reason of the last change: commands, silent, hand_back; empty: none yet
+    refused [1]: number of commands refused so far, of all pilots
+    """
+
+    TYPE = "helm/1"
+    stamp_ns: int = 0
+    steered_by: str = ""
+    pilots: list = list_of(str)
+    why: str = ""
+    refused: int = 0
 
 
 @dataclass(eq=False)
@@ -329,7 +354,7 @@ class MissionState(Message):
     """What the mission is doing.
 
     stamp_ns [ns]: time of the state, sim time
-    state: run_in, on_line, run_out or turn; pass, keep or orbit; await_line; abort or done
+    state: run_in, on_line, run_out or turn; pass, keep or orbit; await_line; stand_by; abort or done
     line [1]: index of the runline being run, -1 before the first
     line_count [1]: number of runlines in the mission
     line_name: name of the runline being run; empty: it has none
@@ -1154,8 +1179,9 @@ class Object(Message):
     instance [1]: number in labels, from 1
     class_name: class in labels
     class_id [1]: number of the class in labels, from 1
-    shape: sphere, box, cylinder (its axis is y) or plate (level, both sides scatter)
-    size_m [m]: diameter of a sphere; sides x, y, z of a box; diameter and length of a cylinder; sides x, y of a plate; then 0
+    shape: word of its shape, as objects of a scenario have it
+    size_m [m]: sizes of its shape, in the order of the scenario's keys, then 0; of a mesh its scale
+    mesh [1]: number of the object_mesh/1 that is its shape; -1: its shape follows from its sizes
     position_enu_m [m]: world position of its middle
     enu_from_object [1]: rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)
     smooth: smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle
@@ -1170,10 +1196,28 @@ class Object(Message):
     class_id: int = 0
     shape: str = ""
     size_m: tuple = fixed(0.0, 0.0, 0.0)
+    mesh: int = -1
     position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
     enu_from_object: tuple = fixed(1.0, 0.0, 0.0, 0.0)
     smooth: bool = False
     sediment: int = 0
+
+
+@dataclass(eq=False)
+class ObjectMesh(Message):
+    """The shape of objects that have it in common, from a file. Truth.
+
+    number [1]: number by which objects name it
+    closed [1]: true: it has an inside, and only its outside scatters
+    vertex_m [m]: vertices (vertex x 3) about its middle: x east, y north, z up when not turned
+    triangle [1]: corners (triangle x 3), counterclockwise as seen from outside
+    """
+
+    TYPE = "object_mesh/1"
+    number: int = 0
+    closed: bool = False
+    vertex_m: np.ndarray = array("f4")
+    triangle: np.ndarray = array("u4")
 
 
 @dataclass(eq=False)
@@ -1226,6 +1270,7 @@ TYPES = {cls.TYPE: cls for cls in (
     Coverage,
     Pose,
     Guidance,
+    Helm,
     MissionState,
     Attitude,
     Position,
@@ -1252,6 +1297,7 @@ TYPES = {cls.TYPE: cls for cls in (
     Mesh,
     MeshRelease,
     Object,
+    ObjectMesh,
     ObjectRelease,
     Chart,
 )}

@@ -54,14 +54,12 @@ void Scene::insert(const terrain::TileKey& key, terrain::Tile tile) {
   std::vector<Object> objects = objects_of(ground->tile);
   impl_->tiles.insert_or_assign(key, Entry{++impl_->inserted, std::move(ground), heights, std::move(objects), {}});
   impl_->gather_objects();
-  impl_->show_all();
 }
 
 bool Scene::remove(const terrain::TileKey& key) {
   impl_->change(key);
   const bool removed = impl_->tiles.erase(key) > 0;
   impl_->gather_objects();
-  impl_->show_all();
   return removed;
 }
 
@@ -71,13 +69,11 @@ void Scene::insert(std::int64_t number, IrregularMesh mesh) {
   impl_->change();
   impl_->irregular.insert_or_assign(
       number, Irregular(std::move(mesh.hierarchy), ++impl_->inserted, sediment_contributor(mesh.sediment)));
-  impl_->show_all();
 }
 
 bool Scene::remove(std::int64_t number) {
   impl_->change();
   const bool removed = impl_->irregular.erase(number) > 0;
-  impl_->show_all();
   return removed;
 }
 
@@ -94,13 +90,11 @@ void Scene::insert_body(std::uint32_t number, Body body) {
   triangles.choose_all();
   shown.box_enu_m = triangles.box_enu_m();
   impl_->bodies.insert_or_assign(number, BodyEntry{std::move(shown), std::move(triangles)});
-  impl_->show_all();
 }
 
 bool Scene::remove_body(std::uint32_t number) {
   impl_->change();
   const bool removed = impl_->bodies.erase(number) > 0;
-  impl_->show_all();
   return removed;
 }
 
@@ -110,16 +104,17 @@ void Scene::Impl::centre_near(const Vec2& place_enu_m) {
   const Vec2 nearest_enu_m = kLattice_m * (place_enu_m / kLattice_m).array().round().matrix();
   if (nearest_enu_m == origin_enu_m) return;
   origin_enu_m = nearest_enu_m;
+  change();
   for (const auto& [key, entry] : tiles) change(key);
   for (auto& [number, one] : irregular) one.forget();
   for (auto& [number, one] : bodies) one.triangles.forget();
-  show_all();
 }
 
 Mesh Scene::adapted(std::span<const lod::View> views) const {
   const std::lock_guard lock(impl_->adapting);
   if (!views.empty()) impl_->centre_near(views.front().frustum.apex_enu_m.head<2>());
   if (impl_->detail.enabled) impl_->adapt(views);
+  else if (impl_->stale) impl_->show_all();
   Mesh mesh = impl_->mesh;
   mesh.facet_mean_square_slope_ = impl_->facet_mean_square_slope;
   return mesh;

@@ -24,6 +24,13 @@ inline frames::Vec3 across(const Facet& facet) {
   return (facet.corners[1] - facet.corners[0]).cross(facet.corners[2] - facet.corners[0]);
 }
 
+/// Height over the middle of an edge of a surface whose unit normals at its ends are known: it bulges by what these
+/// differ along it.
+inline float bulge_m(const frames::Vec3& from, const frames::Vec3& to, const frames::Vec3& normal_from,
+                     const frames::Vec3& normal_to) {
+  return static_cast<float>(0.125 * (to - from).dot(normal_to - normal_from));
+}
+
 /// A triangle of a surface, in its frame.
 Facet facet_of(const Surface& surface, std::size_t triangle);
 

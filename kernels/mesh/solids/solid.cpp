@@ -9,9 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "kernels/mesh/solids/facet.h"
+#include "kernels/mesh/solids/figure.h"
+#include "kernels/mesh/solids/lathe.h"
+
 namespace ensonify::solids {
 namespace {
 
+using frames::Vec2;
 using frames::Vec3;
 using progressive::Triangle;
 using progressive::TriangleMesh;
@@ -109,11 +114,6 @@ double sagitta_of(const TriangleMesh& sphere, double radius_m) {
   return radius_m - nearest_m;
 }
 
-/// Edges on a surface whose unit normals at their ends are known bulge by what these differ along them.
-float bulge_m(const Vec3& from, const Vec3& to, const Vec3& normal_from, const Vec3& normal_to) {
-  return static_cast<float>(0.125 * (to - from).dot(normal_to - normal_from));
-}
-
 std::vector<std::array<float, 3>> bulges_of(const TriangleMesh& sphere) {
   std::vector<std::array<float, 3>> bulges;
   for (const auto& corners : sphere.triangle) {
@@ -198,10 +198,114 @@ Surface surface_of(const Plate& plate, double) {
   return {mesh, {}};
 }
 
+Surface surface_of(const Cone& cone, double sagitta_m) {
+  require(cone.diameter_m > 0.0 && cone.height_m > 0.0 && cone.top_diameter_m >= 0.0,
+          "cone: its diameter or height is not above 0 m");
+  const double half_m = 0.5 * cone.height_m, top_m = 0.5 * cone.top_diameter_m;
+  Outline outline(Vec2(0.0, -half_m));
+  outline.straight_to({0.5 * cone.diameter_m, -half_m}).straight_to({top_m, half_m});
+  if (top_m > 0.0) outline.straight_to({0.0, half_m});
+  return turned(outline, sagitta_m);
+}
+
+Surface surface_of(const Tyre& tyre, double sagitta_m) {
+  require(tyre.width_m > 0.0 && tyre.diameter_m > 2.0 * tyre.width_m,
+          "tyre: its diameter is not above twice its width");
+  const double tube_m = 0.5 * tyre.width_m, ring_m = 0.5 * tyre.diameter_m - tube_m;
+  Outline outline(Vec2(ring_m + tube_m, 0.0));
+  outline.arc({ring_m, 0.0}, 2.0 * std::numbers::pi, sagitta_m).close();
+  return turned(outline, sagitta_m);
+}
+
+Surface surface_of(const Pipe& pipe, double sagitta_m) {
+  const double outer_m = 0.5 * pipe.diameter_m, inner_m = outer_m - pipe.wall_m, half_m = 0.5 * pipe.length_m;
+  require(pipe.wall_m > 0.0 && inner_m > 0.0 && half_m > 0.0,
+          "pipe: its wall leaves no bore, or its length is not above 0 m");
+  Outline outline(Vec2(outer_m, -half_m));
+  outline.straight_to({outer_m, half_m}).straight_to({inner_m, half_m}).straight_to({inner_m, -half_m}).close();
+  return laid_down(turned(outline, sagitta_m));
+}
+
+/// Half of its length is body, a fifth shoulder, and the rest a neck of a third of its diameter.
+Surface surface_of(const Bottle& bottle, double sagitta_m) {
+  require(bottle.diameter_m > 0.0 && bottle.length_m > 0.0, "bottle: its diameter or length is not above 0 m");
+  const double body_m = 0.5 * bottle.diameter_m, neck_m = body_m / 3.0, half_m = 0.5 * bottle.length_m;
+  Outline outline(Vec2(0.0, -half_m));
+  outline.straight_to({body_m, -half_m}).straight_to({body_m, 0.0}).straight_to({neck_m, 0.4 * half_m});
+  outline.straight_to({neck_m, half_m}).straight_to({0.0, half_m});
+  return laid_down(turned(outline, sagitta_m));
+}
+
+/// The nose is as long as 1.5 diameters, or 0.4 of the length if that is less; a seventh of the length is tail.
+Surface surface_of(const Shell& shell, double sagitta_m) {
+  require(shell.diameter_m > 0.0 && shell.length_m > 0.0, "shell: its diameter or length is not above 0 m");
+  const double body_m = 0.5 * shell.diameter_m, half_m = 0.5 * shell.length_m;
+  const double nose_m = std::min(1.5 * shell.diameter_m, 0.4 * shell.length_m);
+  require(nose_m > body_m, "shell: its length is not above 1.25 diameters");
+  const double round_m = (body_m * body_m + nose_m * nose_m) / (2.0 * body_m);  // of the ogive
+  Outline outline(Vec2(0.0, -half_m));
+  outline.straight_to({0.8 * body_m, -half_m}).straight_to({body_m, -half_m + shell.length_m / 7.0});
+  outline.straight_to({body_m, half_m - nose_m});
+  outline.arc({body_m - round_m, half_m - nose_m}, std::asin(nose_m / round_m), sagitta_m).end_at({0.0, half_m});
+  return laid_down(turned(outline, sagitta_m));
+}
+
+Surface surface_of(const Wedge& wedge, double) {
+  require((wedge.size_m.array() > 0.0).all(), "wedge: a side is not above 0 m");
+  TriangleMesh mesh;
+  for (const auto& [y, z] : {std::pair(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}}) {
+    for (const double x : {-0.5, 0.5}) add(mesh, wedge.size_m.cwiseProduct(Vec3(x, y, z)));
+  }
+  add_rectangle(mesh, 0, 2, 3, 1);     // below
+  add_rectangle(mesh, 2, 4, 5, 3);     // north
+  add_rectangle(mesh, 0, 1, 5, 4);     // the ramp
+  mesh.triangle.push_back({0, 4, 2});  // west
+  mesh.triangle.push_back({1, 3, 5});  // east
+  return {mesh, {}};
+}
+
+/// Adds a part of a whole, where it stands.
+void add(Surface& whole, const Surface& part, const Eigen::Isometry3d& pose) {
+  const auto first = static_cast<std::uint32_t>(whole.mesh.vertex_m.size());
+  for (const Eigen::Vector3f& vertex : part.mesh.vertex_m) add(whole.mesh, pose * vertex.cast<double>());
+  for (const auto& [a, b, c] : part.mesh.triangle) whole.mesh.triangle.push_back({first + a, first + b, first + c});
+  whole.bulge_m.insert(whole.bulge_m.end(), part.bulge_m.begin(), part.bulge_m.end());
+  whole.bulge_m.resize(whole.mesh.triangle.size());  // of flat parts: none
+}
+
+Surface surface_of(const Figure& figure, double sagitta_m) {
+  require((figure.size_m.array() > 0.0).all(), "object: a size is not above 0 m");
+  Surface whole;
+  for (const Part& part : parts_of(figure)) add(whole, ensonify::solids::surface_of(part.solid, sagitta_m), part.pose);
+  return whole;
+}
+
+Surface surface_of(const Mesh& mesh, double) {
+  require(mesh.triangles != nullptr && mesh.scale > 0.0, "mesh: has no triangles, or its scale is not above 0");
+  TriangleMesh scaled = *mesh.triangles;
+  for (Eigen::Vector3f& vertex : scaled.vertex_m) vertex *= static_cast<float>(mesh.scale);
+  return {std::move(scaled), {}};
+}
+
 double radius_m(const Sphere& sphere) { return 0.5 * sphere.diameter_m; }
 double radius_m(const Box& box) { return 0.5 * box.size_m.norm(); }
 double radius_m(const Cylinder& cylinder) { return 0.5 * std::hypot(cylinder.diameter_m, cylinder.length_m); }
 double radius_m(const Plate& plate) { return 0.5 * plate.size_m.norm(); }
+double radius_m(const Cone& cone) {
+  return 0.5 * std::hypot(std::max(cone.diameter_m, cone.top_diameter_m), cone.height_m);
+}
+double radius_m(const Tyre& tyre) { return 0.5 * tyre.diameter_m; }
+double radius_m(const Pipe& pipe) { return 0.5 * std::hypot(pipe.diameter_m, pipe.length_m); }
+double radius_m(const Bottle& bottle) { return 0.5 * std::hypot(bottle.diameter_m, bottle.length_m); }
+double radius_m(const Shell& shell) { return 0.5 * std::hypot(shell.diameter_m, shell.length_m); }
+double radius_m(const Wedge& wedge) { return 0.5 * wedge.size_m.norm(); }
+double radius_m(const Figure& figure) { return 0.5 * figure.size_m.norm(); }
+double radius_m(const Mesh& mesh) {
+  float radius2_m2 = 0.0F;
+  for (const Eigen::Vector3f& vertex : mesh.triangles->vertex_m)
+    radius2_m2 = std::max(radius2_m2, vertex.squaredNorm());
+  return mesh.scale * std::sqrt(static_cast<double>(radius2_m2));
+}
 
 /// Integral of (z - height) over the part of a triangle that lies below the height, times its normal's z.
 double moment_below(const std::array<Vec3, 3>& corners, double height_m) {
@@ -223,7 +327,10 @@ double moment_below(const std::array<Vec3, 3>& corners, double height_m) {
 
 }  // namespace
 
-bool is_closed(const Solid& solid) { return !std::holds_alternative<Plate>(solid); }
+bool is_closed(const Solid& solid) {
+  if (const auto* mesh = std::get_if<Mesh>(&solid)) return mesh->closed;
+  return !std::holds_alternative<Plate>(solid);
+}
 
 double radius_m(const Solid& solid) {
   return std::visit([](const auto& one) { return radius_m(one); }, solid);

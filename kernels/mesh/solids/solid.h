@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <variant>
 #include <vector>
 
@@ -29,7 +30,58 @@ struct Plate {
   frames::Vec2 size_m = frames::Vec2::Zero();
 };
 
-using Solid = std::variant<Sphere, Box, Cylinder, Plate>;
+/// Upright, closed at both ends; a top of 0 m is a point.
+struct Cone {
+  double diameter_m = 0.0;
+  double top_diameter_m = 0.0;
+  double height_m = 0.0;
+};
+
+/// A round tube in a ring that lies level.
+struct Tyre {
+  double diameter_m = 0.0;  // over all
+  double width_m = 0.0;     // of the tube
+};
+
+/// A tube, open at both ends, its axis along y.
+struct Pipe {
+  double diameter_m = 0.0;  // over all
+  double length_m = 0.0;
+  double wall_m = 0.0;
+};
+
+/// A bottle that lies: its axis along y, its neck to the north.
+struct Bottle {
+  double diameter_m = 0.0;
+  double length_m = 0.0;
+};
+
+/// A shell or a bomb that lies: a body along y with a tangent ogive to the north and a tail that tapers to the south.
+struct Shell {
+  double diameter_m = 0.0;
+  double length_m = 0.0;
+};
+
+/// A ramp of these extents along x, y and z: it rises to the north.
+struct Wedge {
+  frames::Vec3 size_m = frames::Vec3::Zero();
+};
+
+/// A thing made of several simple bodies (figure.h), with these extents along x, y and z.
+struct Figure {
+  enum class Kind { kLadder, kTrap, kAnchor, kMooring, kPerson, kBoat, kAircraft, kPropeller };
+  Kind kind = Kind::kLadder;
+  frames::Vec3 size_m = frames::Vec3::Zero();
+};
+
+/// Triangles of a file about their middle, which others may share.
+struct Mesh {
+  std::shared_ptr<const progressive::TriangleMesh> triangles;
+  bool closed = false;  // counterclockwise as seen from outside
+  double scale = 1.0;
+};
+
+using Solid = std::variant<Sphere, Box, Cylinder, Plate, Cone, Tyre, Pipe, Bottle, Shell, Wedge, Figure, Mesh>;
 
 /// Whether only one side of its surface can be seen: a plate has two.
 bool is_closed(const Solid& solid);

@@ -2,8 +2,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <numbers>
+
+#include "kernels/mesh/solids/testing/closed.h"
 
 using namespace ensonify;
 using namespace ensonify::solids;
@@ -13,20 +14,6 @@ using frames::Vec3;
 using progressive::TriangleMesh;
 
 namespace {
-
-/// Every edge of a closed surface whose triangles are all seen from outside is there once in each direction.
-bool closes(const TriangleMesh& mesh) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const auto& t : mesh.triangle) {
-    for (std::size_t c = 0; c < 3; ++c) ++edges[{t[c], t[(c + 1) % 3]}];
-  }
-  for (const auto& [edge, count] : edges) {
-    if (count != 1 || edges.count({edge.second, edge.first}) == 0) return false;
-  }
-  return !edges.empty();
-}
-
-double volume_m3(const TriangleMesh& mesh) { return volume_below_m3(mesh, 1e3); }
 
 TriangleMesh sphere(double diameter_m, double sagitta_m) { return surface_of(Sphere{diameter_m}, sagitta_m).mesh; }
 

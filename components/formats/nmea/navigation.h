@@ -4,6 +4,8 @@
 #include <string_view>
 #include <variant>
 
+#include "components/formats/nmea/sentence.h"
+
 /// Sentences of NMEA 0183 [NMEA0183] that give where a vehicle is and how it lies. Times are seconds of the UTC day.
 namespace ensonify::nmea {
 
@@ -28,14 +30,9 @@ struct Motion {
   double roll_rad = 0.0, pitch_rad = 0.0, heave_m = 0.0;
 };
 
-struct Other {};        // a good sentence of another kind
-struct Empty {};        // one of these kinds without what it is for: its source knows nothing yet
-struct BadChecksum {};  // another sum than it gives, or not given
-struct Malformed {};    // no sentence, or a field that cannot be
-using Sentence = std::variant<Fix, Heading, Motion, Other, Empty, BadChecksum, Malformed>;
+using Navigation = std::variant<Fix, Heading, Motion, Other, Empty, BadChecksum, Malformed>;
 
-/// One line, with or without its CR LF. A `$`, fields between commas, `*` and the sum of all between as two hexadecimal
-/// digits of either case. Fields beyond those that are needed are not examined.
-Sentence parse(std::string_view line);
+/// One line. Fields beyond those that are needed are not examined.
+Navigation read_navigation(std::string_view line);
 
 }  // namespace ensonify::nmea
