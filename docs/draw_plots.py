@@ -47,6 +47,7 @@ def draw_all(demo, survey, ahead, around, aside, targets):
     draw("plot_angular_response", "angular-response", demo)
     draw("targets_fls", "fls", targets)
     draw("targets_scene", "scene", DOCS.parent / "scenarios/targets/scenario.yaml", "--record", targets)
+    draw("object_shapes", "scene", DOCS.parent / "scenarios/object_shapes/scenario.yaml")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "launch/idle_faults.h"
+
 namespace ensonify::launcher {
 namespace {
 
@@ -297,6 +299,9 @@ void Supervisor::judge_exits() {
   if (cut_short_ && launch_.processes.back().component == "expect") {
     exits_.push_back(
         {"other expectations", false, sim_s_, "were not judged: the run was cut short by an expected end"});
+  }
+  if (!cut_short_ && verdict_.code() <= kExitAssertionFailed) {
+    for (Expectation& idle : idle_faults(launch_, places_.out, sim_s_)) exits_.push_back(std::move(idle));
   }
   if (std::any_of(exits_.begin(), exits_.end(), [](const Expectation& e) { return !e.ok; })) {
     verdict_.assertion_failed("expect", "assertions failed");

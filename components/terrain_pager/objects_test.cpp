@@ -1,6 +1,12 @@
 #include "components/terrain_pager/objects.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
 
 #include "components/config/config_error.h"
 #include "components/runtime/testing/node_under_test.h"
@@ -77,6 +83,49 @@ TEST_CASE("on the seabed an object stands as deep as its burial says") {
   CHECK_THAT(placed(config).position_enu_m[2], WithinAbs(-20.0 + 0.25, 5e-3));
   config.objects[0].place.tilt_rad = 0.5 * std::numbers::pi;  // to the north, as its axis lies
   CHECK_THAT(placed(config).position_enu_m[2], WithinAbs(-20.0 + 1.0, 1e-3));
+}
+
+TEST_CASE("an object that rests lies on its ground") {
+  TerrainPagerConfig config = with_ball();
+  config.objects[0].place.buried_share.reset();
+  config.objects[0].place.rests = true;
+  config.objects[0].solid = solids::Box{{1.0, 0.6, 0.4}};
+  CHECK_THAT(placed(config).position_enu_m[2], WithinAbs(-20.0 + 0.2, 1e-6));
+  // Upright and balanced on an edge it falls to a side.
+  config.objects[0].solid = solids::Cone{0.2, 0.0, 1.5};
+  config.objects[0].place.tilt_rad = std::numbers::pi;
+  const auto fallen = frames::quaternion_of(placed(config).enu_from_object).toRotationMatrix();
+  CHECK(std::abs(fallen(2, 2)) < 0.2);
+}
+
+TEST_CASE("objects of one file share its mesh, which comes before them and once") {
+  const auto path = std::filesystem::temp_directory_path() / ("objects_test_" + std::to_string(getpid()) + ".off");
+  std::ofstream(path) << "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  TerrainPagerConfig config = with_ball();
+  config.objects[0].solid = solids::Mesh{nullptr, false, 2.0};
+  config.objects[0].file = ObjectFile{path, {}, false};
+  config.objects.push_back(config.objects[0]);
+  config.objects[1].instance = 6;
+  config.objects[1].solid = solids::Mesh{nullptr, false, 3.0};
+  NodeUnderTest<TerrainPagerNode> node(config);
+  std::filesystem::remove(path);
+  msg::Pose pose;
+  pose.position_enu_m = {90.0, 50.0, -1.0};
+  node.give("pose", pose);
+  const auto meshes = node.step_until<msg::ObjectMesh>("object_mesh", 2_s);
+  const auto objects = node.step_until<msg::Object>("object", 2_s);
+  REQUIRE(meshes.size() == 1);
+  REQUIRE(objects.size() == 2);
+  CHECK(meshes[0].closed);
+  CHECK(objects[0].shape == "mesh");
+  CHECK(objects[1].mesh == meshes[0].number);
+  const solids::Mesh mesh = mesh_of(meshes[0]);
+  const auto volume_m3 = [&](const msg::Object& object) {
+    return solids::volume_below_m3(surface_of(object, solid_of(object, &mesh), 1e-3).mesh, 100.0);
+  };
+  CHECK(volume_m3(objects[0]) == Approx(8.0 / 6.0).epsilon(1e-4));
+  CHECK(volume_m3(objects[1]) == Approx(27.0 / 6.0).epsilon(1e-4));
+  CHECK_THROWS_WITH(solid_of(objects[0]), "object ball: its mesh has not come");
 }
 
 TEST_CASE("an object that hangs stays where the scenario has it") {

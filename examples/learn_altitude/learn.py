@@ -14,7 +14,7 @@ import numpy as np
 from stable_baselines3 import SAC
 from stable_baselines3.common.callbacks import BaseCallback
 
-UNSEEN = range(9000, 9005)  # seeds of the evaluation; training has those below 9000
+UNSEEN = range(9000, 9005)  # seeds of the evaluation; those of the training are drawn from four billion
 HISTORY = 3  # observations that the agent is given at once, newest first
 
 
@@ -61,7 +61,7 @@ def environment(name):
 
 
 class Until(BaseCallback):
-    """Ends the training after some wall seconds, and says how it goes."""
+    """Ends the training after some wall seconds, and says now and then what an episode earned."""
 
     def __init__(self, seconds):
         super().__init__()
@@ -130,6 +130,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("task", choices=["AltitudeHold", "BottomFollow"])
     parser.add_argument("--seconds", type=float, default=600, help="of wall time that training takes (default 600)")
+    parser.add_argument("--steps", type=int, default=10**9, help="of the world, instead: the same on any machine, with one seed")
     parser.add_argument("--seed", type=int, default=1, help="of the training")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/learn"), help="folder of policy.zip")
     parser.add_argument("--evaluate", type=pathlib.Path, metavar="POLICY", help="evaluates a policy, and does not train")
@@ -138,7 +139,7 @@ def main():
         return evaluate(options.task, SAC.load(options.evaluate, device="cpu"))
     env = environment(options.task)
     untrained, model = learner(env, options.seed), learner(env, options.seed)
-    model.learn(10_000_000, callback=Until(options.seconds))
+    model.learn(options.steps, callback=Until(options.seconds if options.steps == 10**9 else float("inf")))
     env.close()
     options.out.mkdir(parents=True, exist_ok=True)
     model.save(options.out / "policy.zip")

@@ -178,6 +178,16 @@ class Faults(SystemTest):
         same = self.tool("compare", self.folder / "whole/run.mcap", self.folder / "paused/run.mcap", "--topic", "boat/*")
         self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
 
+    def test_a_fault_that_does_nothing_fails_the_run(self):
+        for more, idle in (("inject: [{ mute: boat/pose, from_s: 1, to_s: 2 }, { mute: boat/pose, from_s: 50 }]", "inject[1] acts"),
+                           ("inject: [{ delay: boat/pose, by_ms: 20, from_s: 4.5 }]", "inject[0] acts"),
+                           ("  idler: { run: [python3, -c, 'import time; time.sleep(60)'], observer: true }\n"
+                            "inject: [{ pause: idler, at_s: 1, for_wall_s: 0.1 }]", "inject[0] acts")):
+            result = self.run_launch(boat(more=more), "--free")
+            self.assertEqual(result.code, 1, result.stderr)
+            self.assertIn(f"failed: {idle}:", result.stderr)
+            self.assertIn("did nothing", result.stderr)
+
     def test_a_kill_in_one_process_is_refused(self):
         result = self.run_launch(boat(more=INJECT.format(more="- { kill: pilot, at_s: 2 }")), "--in-process")
         self.assertEqual(result.code, 2, result.stderr)

@@ -318,7 +318,7 @@ class Guidance(Message):
     speed_mps [m/s]: speed through the water to reach, forward
     depth_m [m]: depth of the body origin below the water level to hold; NaN: as before
     vehicle: name of the vehicle that is meant; empty: whichever receives it
-    hand_back [1]: true: the vehicle is handed to the next of those who may steer it
+    hand_back [1]: release of the vehicle to the next of those who may steer it
     """
 
     TYPE = "guidance/1"
@@ -1208,7 +1208,7 @@ class ObjectMesh(Message):
     """The shape of objects that have it in common, from a file. Truth.
 
     number [1]: number by which objects name it
-    closed [1]: true: it has an inside, and only its outside scatters
+    closed [1]: closedness: it has an inside, and only its outside scatters
     vertex_m [m]: vertices (vertex x 3) about its middle: x east, y north, z up when not turned
     triangle [1]: corners (triangle x 3), counterclockwise as seen from outside
     """

@@ -22,6 +22,7 @@ LEAST_SIDE_M = 10.0
 MARGIN = 1.3         # of the square around the objects
 POSTS_3D = 160       # of the seabed, a side
 NAMED = 30           # objects; more are not named in the picture
+LISTED = 10  # classes; more would hide the map
 
 
 @dataclasses.dataclass
@@ -145,7 +146,8 @@ def draw_plan_view(figure, scene: Scene) -> None:
         if len(shown) <= NAMED:
             axes.annotate(one["name"], one["position_enu_m"][:2], xytext=(5, 4), textcoords="offset points", fontsize=7, parse_math=False)
     map_axes(axes, scene.frame, f"from above; posts {scene.frame.cell_m:g} m apart, slopes shaded x{relief.exaggeration:g}")
-    handles = [Line2D([], [], marker="o", linestyle="", color=colour, label=name) for name, colour in colours.items()]
+    handles = [Line2D([], [], marker="o", linestyle="", color=colour, label=name) for name, colour in colours.items()
+               if len(colours) <= LISTED]
     if len(scene.track):
         handles.append(Line2D([], [], color="black", linewidth=0.9, label="track"))
     if scene.swath:
