@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "components/config/config_error.h"
 #include "components/terrain/object_message.h"
@@ -12,8 +13,8 @@
 namespace ensonify::source {
 namespace {
 
-constexpr double kSagitta = 0.01;  // of its size: to see where it stands, and what stands in its way
-constexpr double kFewestPosts = 8.0, kMostPosts = 64.0;  // of the ground, across an object
+constexpr double kSagitta = 0.01;    // of its size: to see where it stands, and what stands in its way
+constexpr double kMostPosts = 64.0;  // of the ground, across an object
 
 msg::Object message_of(const SceneObject& object) {
   msg::Object message;
@@ -37,19 +38,27 @@ Eigen::AlignedBox3d box_of(const progressive::TriangleMesh& mesh) {
   return box;
 }
 
-/// Heights under an object and a little beyond; where the ground has a hole it is as at the middle.
+/// Heights under an object and a little beyond, on posts of the ground's lattice; where the ground has a hole it is as
+/// at the middle.
 solids::GroundPatch patch_under(const TerrainSource& ground, const frames::Vec2& place_m, double reach_m,
                                 double ground_m) {
-  const double spacing_m =
-      std::clamp(ground.native_spacing_m(), 2.0 * reach_m / kMostPosts, 2.0 * reach_m / kFewestPosts);
-  const auto half = static_cast<Eigen::Index>(std::ceil(reach_m / spacing_m)) + 1;
-  solids::GroundPatch patch{place_m - frames::Vec2::Constant(spacing_m * static_cast<double>(half)), spacing_m, {}};
-  patch.height_m.resize(2 * half + 1, 2 * half + 1);
-  for (Eigen::Index n = 0; n <= 2 * half; ++n) {
-    for (Eigen::Index e = 0; e <= 2 * half; ++e) {
-      const double height_m =
-          ground.height_m(patch.corner_m + spacing_m * frames::Vec2(static_cast<double>(e), static_cast<double>(n)));
-      patch.height_m(n, e) = std::isfinite(height_m) ? height_m : ground_m;
+  double spacing_m = ground.native_spacing_m();
+  while (2.0 * reach_m > kMostPosts * spacing_m) spacing_m *= 2.0;
+  const auto first = [&](double middle_m) {
+    return static_cast<std::int64_t>(std::floor((middle_m - reach_m) / spacing_m)) - 1;
+  };
+  const int posts = static_cast<int>(std::ceil(2.0 * reach_m / spacing_m)) + 4;
+  const PostBlock block{first(place_m.x()), first(place_m.y()), posts, posts, spacing_m};
+  std::vector<float> height_m(block.size());
+  std::vector<std::uint8_t> sediment(block.size());
+  ground.sample(block, height_m, sediment);
+  solids::GroundPatch patch{{block.east_m(0), block.north_m(0)}, spacing_m, {}};
+  patch.height_m.resize(posts, posts);
+  for (int n = 0; n < posts; ++n) {
+    for (int e = 0; e < posts; ++e) {
+      const auto height = static_cast<double>(
+          height_m[static_cast<std::size_t>(n) * static_cast<std::size_t>(posts) + static_cast<std::size_t>(e)]);
+      patch.height_m(n, e) = std::isfinite(height) ? height : ground_m;
     }
   }
   return patch;

@@ -1,21 +1,25 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "components/terrain/object_meshes.h"
 #include "components/terrain/terrain_source.h"
 #include "components/terrain_pager/config.h"
+#include "components/terrain_pager/mission_track.h"
 #include "kernels/mesh/paging/rules.h"
 #include "messages/terrain.h"
 
 namespace ensonify::pager {
 
-/// The scenario's objects where they stand, and which of them heads hold: by the same margins as meshes.
+/// The scenario's objects where they stand, and which of them heads hold: by the same margins as meshes. A few are
+/// placed at once; of many each is placed when heads are to hold it first, so that the start does not wait for them.
 class Objects {
  public:
   /// Throws ConfigError for an object outside the terrain or over a hole in it, above the water, wholly below the
-  /// seabed, or in the way of the mission (as Meshes).
+  /// seabed, or in the way of the mission (as Meshes); of many when it is placed. `terrain` stays.
   Objects(const TerrainPagerConfig& config, const source::TerrainSource& terrain);
 
   struct Decision {
@@ -33,16 +37,26 @@ class Objects {
   /// What was guessed or mended of meshes, a line each.
   const std::vector<std::string>& said() const { return said_; }
 
+  static constexpr std::size_t kPlacedAtOnce = 500;  // some milliseconds each, for their ground
+
  private:
   struct One {
-    msg::Object message;
-    paging::Box box;  // seen from above
+    SceneObject wanted;
+    std::optional<msg::Object> message;  // once it is placed
+    paging::Box box;                     // seen from above; before that about its middle, as far as it may reach
     bool at_heads = false;
   };
   struct Shape {
     msg::ObjectMesh message;
     bool at_heads = false;
   };
+  void read_mesh(const SceneObject& object);
+  void place(One& one);
+  void place_all(const std::vector<One*>& wanted);
+
+  const source::TerrainSource& terrain_;
+  std::optional<MissionTrack> track_;
+  source::ObjectMeshes files_;
   std::vector<One> objects_;
   std::vector<Shape> meshes_;  // by their numbers
   std::vector<std::string> said_;

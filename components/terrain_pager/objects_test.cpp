@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -34,17 +36,24 @@ TerrainPagerConfig with_ball() {
   return config;
 }
 
-pager::Objects objects_of(const TerrainPagerConfig& config) { return {config, *source::source_of(config.terrain)}; }
+/// Objects and the ground on which they stand.
+struct OnGround {
+  explicit OnGround(const TerrainPagerConfig& config)
+      : terrain(source::source_of(config.terrain)), objects(config, *terrain) {}
+
+  std::shared_ptr<const source::TerrainSource> terrain;
+  pager::Objects objects;
+};
 const paging::Margins kMargins{60.0, 80.0};
 
 msg::Object placed(const TerrainPagerConfig& config) {
-  auto objects = objects_of(config);
-  return *objects.update({100.0, 50.0}, kMargins).publish.at(0);
+  OnGround ground(config);
+  return *ground.objects.update({100.0, 50.0}, kMargins).publish.at(0);
 }
 
 std::string refusal(const TerrainPagerConfig& config) {
   try {
-    objects_of(config);
+    OnGround{config};
   } catch (const ConfigError& error) {
     return error.what();
   }
@@ -54,8 +63,8 @@ std::string refusal(const TerrainPagerConfig& config) {
 }  // namespace
 
 TEST_CASE("an object is published near the vehicle, and released farther off than that") {
-  auto objects = objects_of(with_ball());
-  const auto update = [&](double east_m) { return objects.update({east_m, 50.0}, kMargins); };
+  OnGround ground(with_ball());
+  const auto update = [&](double east_m) { return ground.objects.update({east_m, 50.0}, kMargins); };
   CHECK(update(39.0).publish.empty());
   const auto near = update(41.0);
   REQUIRE(near.publish.size() == 1);
@@ -96,6 +105,23 @@ TEST_CASE("an object that rests lies on its ground") {
   config.objects[0].place.tilt_rad = std::numbers::pi;
   const auto fallen = frames::quaternion_of(placed(config).enu_from_object).toRotationMatrix();
   CHECK(std::abs(fallen(2, 2)) < 0.2);
+}
+
+TEST_CASE("many objects are placed when the vehicle comes near, in the scenario's order") {
+  TerrainPagerConfig config = with_ball();
+  for (std::uint32_t i = 0; i < pager::Objects::kPlacedAtOnce; ++i) {
+    config.objects.push_back(config.objects[0]);
+    config.objects.back().instance = 6 + i;
+    config.objects.back().place.position_enu_m = {-190.0 + 0.7 * i, -50.0, 0.0};
+  }
+  config.objects[7].place.position_enu_m.x() = 500.0;  // outside, and never near
+  OnGround ground(config);
+  CHECK(ground.objects.update({-190.0, -100.0}, kMargins).publish.size() == 47);
+  const auto next = ground.objects.update({-150.0, -100.0}, kMargins);
+  REQUIRE(next.publish.size() > 40);
+  CHECK(std::ranges::is_sorted(next.publish, {}, &msg::Object::number));
+  CHECK_THAT(next.publish[0]->position_enu_m[2], WithinAbs(-19.75, 1e-3));
+  CHECK_THROWS_WITH(ground.objects.update({450.0, 50.0}, kMargins), Catch::Contains("outside the terrain"));
 }
 
 TEST_CASE("objects of one file share its mesh, which comes before them and once") {

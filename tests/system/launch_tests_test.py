@@ -56,24 +56,27 @@ class Batches(SystemTest):
         self.assertIn(f"{len(list(SHIPPED.glob('*.yaml')))} passed, 0 failed, 0 skipped", done.stdout)
 
     def test_shipped_launch_tests_fail_when_what_they_test_is_broken(self):
-        for name, old, new in (("line_in_a_current", "speed_mps: 0.7", "speed_mps: 1.8"),
-                               ("altitude_over_a_step", "vertical_speed_mps: 0.8", "vertical_speed_mps: 0.02"),
-                               ("estimate_lost", "from_s: 30, to_s: 33", "from_s: 5, to_s: 75"),
-                               ("wrong_commands", "value: nan", "value: 0.0"),
-                               ("agent_silent", "timeout_s: 2", "timeout_s: 20"),
-                               ("gnss_outage", "grade: tactical", "grade: mems"),
-                               ("special_order", "0.8] }, measured", "0.8], roll_deg: 1 }, measured"),
-                               ("wall_distance", "pilot: { run: autopilot }", "pilot: { run: autopilot, config: { drift_settle_s: 0 } }"),
-                               ("target_passed", "speed_mps: 0.4", "speed_mps: 1.0"),
-                               ("cross_talk", "mode: interleaved", "mode: free"),
-                               ("coverage_complete", "ping_rate_hz: 3", "ping_rate_hz: 0.4"),
-                               ("killed", "at_s: 4", "at_s: 400")):
-            with self.subTest(name):
-                text = (SHIPPED / f"{name}.yaml").read_text()
-                self.assertIn(old, text)
-                broken = self.write(f"{name}.yaml", text.replace(old, new))
-                done = self.ensonify_test(broken, "--out", self.folder / name)
-                self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        changes = (("line_in_a_current", "speed_mps: 0.7", "speed_mps: 1.8"),
+                   ("altitude_over_a_step", "vertical_speed_mps: 0.8", "vertical_speed_mps: 0.02"),
+                   ("estimate_lost", "from_s: 30, to_s: 33", "from_s: 5, to_s: 75"),
+                   ("wrong_commands", "value: nan", "value: 0.0"),
+                   ("agent_silent", "timeout_s: 2", "timeout_s: 20"),
+                   ("gnss_outage", "grade: tactical", "grade: mems"),
+                   ("special_order", "0.8] }, measured", "0.8], roll_deg: 1 }, measured"),
+                   ("wall_distance", "pilot: { run: autopilot }", "pilot: { run: autopilot, config: { drift_settle_s: 0 } }"),
+                   ("target_passed", "speed_mps: 0.4", "speed_mps: 1.0"),
+                   ("cross_talk", "mode: interleaved", "mode: free"),
+                   ("coverage_complete", "ping_rate_hz: 3", "ping_rate_hz: 0.4"),
+                   ("killed", "at_s: 4", "at_s: 400"))
+        self.assertEqual({name for name, *_ in changes}, {file.stem for file in SHIPPED.glob("*.yaml")})
+        (self.folder / "broken").mkdir()
+        for name, old, new in changes:
+            text = (SHIPPED / f"{name}.yaml").read_text()
+            self.assertIn(old, text)
+            self.write(f"broken/{name}.yaml", text.replace(old, new))
+        done = self.ensonify_test(self.folder / "broken", "--out", self.folder / "out", "--jobs", 2, timeout=400)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertIn(f"0 passed, {len(changes)} failed, 0 skipped", done.stdout)
 
     def test_verdicts_exit_codes_and_junit(self):
         folder = self.batch(1)
