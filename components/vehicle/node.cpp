@@ -69,8 +69,8 @@ void VehicleNode::report_helm(SimTime now) {
   for (const PilotKeys& pilot : config_.steered_by) helm.pilots.push_back(pilot.name);
   helms_->send(helm);
   if (changed) {
-    log::event(ports_, "helm", "steered_by={} why={}",
-               pilots_.steered_by().empty() ? "nobody" : pilots_.steered_by(), pilots_.why());
+    log::event(ports_, "helm", "steered_by={} why={}", pilots_.steered_by().empty() ? "nobody" : pilots_.steered_by(),
+               pilots_.why());
   }
 }
 

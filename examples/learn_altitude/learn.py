@@ -15,16 +15,20 @@ from stable_baselines3 import SAC
 from stable_baselines3.common.callbacks import BaseCallback
 
 UNSEEN = range(9000, 9005)  # seeds of the evaluation; those of the training are drawn from four billion
+CRASH = 20.0  # what touching the bottom costs in training
 HISTORY = 3  # observations that the agent is given at once, newest first
 
 
 class Sensed(gymnasium.Wrapper):
     """What the altimeters of a task say, as numbers of the order of 1: errors of altitude (the last valid ones, in tolerated errors) and
-    velocities in m/s, of the last steps. Shape (HISTORY * n,)."""
+    velocities in m/s, of the last steps. Shape (HISTORY * n,).
 
-    def __init__(self, env, task):
+    With `shaped` the reward also falls beyond the tolerated error, where the task's is 0 and teaches nothing, and touching the
+    bottom costs: for the training only."""
+
+    def __init__(self, env, task, shaped=False):
         super().__init__(env)
-        self._task = task
+        self._task, self._shaped = task, shaped
         self._altimeters = [key for key in sorted(env.observation_space) if key.endswith("/range_m")]
         numbers = len(self._altimeters) + env.observation_space["nav/estimate"].shape[0]
         self.observation_space = gymnasium.spaces.Box(-np.inf, np.inf, (HISTORY * numbers,), np.float32)
@@ -47,6 +51,8 @@ class Sensed(gymnasium.Wrapper):
         """As the environment's."""
         seen, reward, terminated, truncated, info = self.env.step(action)
         self._past = [self._now(seen), *self._past[:-1]]
+        if self._shaped:
+            reward += min(0.0, 1.0 - abs(min(self._errors.values()))) - CRASH * terminated
         return np.concatenate(self._past), float(reward), terminated, truncated, info
 
 
@@ -55,9 +61,9 @@ def task_of(name):
     return importlib.import_module({"AltitudeHold": "ensonify.tasks.altitude_hold", "BottomFollow": "ensonify.tasks.bottom_follow"}[name])
 
 
-def environment(name):
+def environment(name, shaped=False):
     """A task as the agent senses it."""
-    return Sensed(gymnasium.make(f"Ensonify/{name}-v0", disable_env_checker=True), task_of(name))
+    return Sensed(gymnasium.make(f"Ensonify/{name}-v0", disable_env_checker=True), task_of(name), shaped)
 
 
 class Until(BaseCallback):
@@ -137,7 +143,7 @@ def main():
     options = parser.parse_args()
     if options.evaluate:
         return evaluate(options.task, SAC.load(options.evaluate, device="cpu"))
-    env = environment(options.task)
+    env = environment(options.task, shaped=True)
     untrained, model = learner(env, options.seed), learner(env, options.seed)
     model.learn(options.steps, callback=Until(options.seconds if options.steps == 10**9 else float("inf")))
     env.close()

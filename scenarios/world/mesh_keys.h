@@ -124,7 +124,8 @@ struct MeshOfFile {
   MeshPlacing placing = MeshPose{};
 
   static void parameters(auto& self, auto&& visit) {
-    visit("file", "", must(path()), "OBJ, PLY, STL, OFF, glTF or GLB: x east, y north, z up unless `up` says y", self.file);
+    visit("file", "", must(path()), "OBJ, PLY, STL, OFF, glTF or GLB: x east, y north, z up unless `up` says y",
+          self.file);
     visit("unit_m", "m", in(1e-6, 1e3), "metres in the file's unit", self.unit_m);
     visit("up", "", one_of({{"y", SeabedMesh::Up::kY}, {"z", SeabedMesh::Up::kZ}}),
           "axis of the file that points up; with y, its z points south", self.up);

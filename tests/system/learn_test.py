@@ -5,7 +5,7 @@ import unittest
 
 from support import SOURCE
 
-STEPS = 6000
+STEPS = 3500
 NEEDED = ("torch", "stable_baselines3", "gymnasium")
 
 
@@ -15,7 +15,7 @@ class Learn(unittest.TestCase):
     def test_a_short_training_beats_none(self):
         sys.path.insert(0, str(SOURCE / "examples/learn_altitude"))
         import learn
-        env = learn.environment("AltitudeHold")
+        env = learn.environment("AltitudeHold", shaped=True)
         untrained, model = learn.learner(env, seed=1), learn.learner(env, seed=1)
         model.learn(STEPS)
         env.close()

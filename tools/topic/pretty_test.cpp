@@ -54,7 +54,7 @@ TEST_CASE("a type that is not known is shown without units") {
   const msg::Body body =
       msg::encode(msg::Guidance{.stamp_ns = 5, .heading_grid_rad = 0.25, .speed_mps = 2.0, .depth_m = 8.0});
   CHECK(message_text(msg::decode_value(body, body.size()), nullptr) ==
-        "  stamp_ns: 5\n  heading_grid_rad: 0.25\n  speed_mps: 2\n  depth_m: 8\n");
+        "  stamp_ns: 5\n  heading_grid_rad: 0.25\n  speed_mps: 2\n  depth_m: 8\n  vehicle: \n  hand_back: false\n");
 }
 
 TEST_CASE("a field is found by its path, and an element has the unit of its list") {
