@@ -31,6 +31,7 @@ HEAVY = (
      "components/terrain, components/terrain_pager, tools"),
     ("Assimp", r"^assimp/", r"^components/terrain/", "components/terrain"),
     ("OpenSSL", r"^openssl/", r"^components/terrain/tiles/", "components/terrain/tiles"),
+    ("Boost", r"^boost/", r"^tools/console/server/", "tools/console/server"),
     ("nlohmann/json", r"^nlohmann/json\.hpp", r"\.cpp$", ".cpp files (headers take <nlohmann/json_fwd.hpp>)"),
 )
 
@@ -41,7 +42,7 @@ TALK = ["messages", "components/errors", "components/runtime"]
 FILES = ["components/errors", "components/config"]
 WORLD = FILES + ["scenarios", "messages"] + KERNELS
 SHARED = TALK + WORLD + ["components/record", "components/formats", "components/transport", "components/terrain",
-                                            "components/sonar", "components/truth"]
+                                            "components/sonar", "components/truth", "components/view"]
 SEES = {
     "kernels/base": [],
     "kernels/water": ["kernels/base"],
@@ -59,6 +60,7 @@ SEES = {
     "components/config": ["components/errors"],
     "components/runtime": ["messages", "components/errors"],
     "components/record": TALK,
+    "components/view": ["messages", "kernels/base"],
     "components/truth": TALK + KERNELS,
     "components/terrain": WORLD,
     "components/sonar": TALK + WORLD + ["components/terrain/mesh_message.h", "components/terrain/object_message.h"],
@@ -77,7 +79,7 @@ FAR = {"examples/gyro": re.compile(r"^(scenarios/world|components/sonar|kernels/
 # Rooms of the picture: the first prefix that fits.
 DRAWN = (
     ("tools/", "tools/<verb>"), ("launch/", "launch"), ("scenarios/", "scenarios"), ("messages/", "messages"), ("kernels/", "kernels"),
-    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "transport", "truth", "config", "runtime", "errors")),
+    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "transport", "truth", "view", "config", "runtime", "errors")),
     ("components/", "components/<process>"),
 )
 # Every process has its main() from there; drawn, it would be an arrow both ways.

@@ -33,6 +33,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"check", "check a launch file, its configurations and its wiring without running it"},
     {"topic", "list, info, echo, hz and bw of the topics of a live run; pub publishes on one"},
     {"graph", "draw who talks to whom"},
+    {"console", "watch a run or a record in a browser"},
     {"clock", "list of live runs; status, pause, resume, step and rate of one"},
     {"replay", "feed a record back"},
     {"record", "record a live run from outside; repair a record whose writer was killed"},

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "messages/clock.h"
+#include "messages/console.h"
 #include "messages/declarations.h"
 #include "messages/health.h"
 #include "messages/mission.h"
@@ -11,6 +12,7 @@
 #include "messages/sonar.h"
 #include "messages/soundings.h"
 #include "messages/terrain.h"
+#include "messages/view.h"
 
 namespace ensonify::msg {
 
@@ -20,7 +22,8 @@ using AllMessages =
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
                MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
-               ClockHealth>;
+               ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleEnter, ConsoleWatch, ConsoleDrawn, ConsoleOpen,
+               ConsoleCommand, ConsoleAnswer>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

@@ -1,0 +1,110 @@
+// A fan: every pixel shows the nearest beam at its range. Drawn as the head has it, along its own axis.
+import { View } from "./messages";
+import { EMPTY, Limits, pixels } from "./palette";
+
+export interface Place {
+  across_m: number; // positive to starboard
+  along_m: number; // down or forward, as the head's beam angles count
+  range_m: number;
+  angle_rad: number;
+  beam: number;
+  level_db: number | null; // null: nothing was received there
+}
+
+/** The part of the plane that a fan covers, in metres, and its scale. */
+export interface Frame {
+  left_m: number;
+  top_m: number; // along-axis distance of the upper edge
+  metre_px: number;
+  upward: boolean; // the head looks forward: ahead is up
+}
+
+export class FanPicture {
+  frame: Frame = { left_m: 0, top_m: 0, metre_px: 1, upward: false };
+  private view: View | null = null;
+  private cellOfPixel = new Int32Array(0);
+  private mapped = "";
+
+  constructor(private canvas: HTMLCanvasElement) {}
+
+  /** Which cell every pixel shows; made anew when the geometry changes. */
+  private map(view: View) {
+    const { width, height } = this.canvas;
+    const [beams, cells] = view.level.shape;
+    const angles = view.beam_angle_rad.data;
+    const key = [width, height, beams, cells, view.first_range_m, view.cell_m, view.beam_axis, angles.join()].join(";");
+    if (key === this.mapped) return;
+    this.mapped = key;
+    const order = Array.from(angles.keys()).sort((a, b) => angles[a] - angles[b]);
+    const sorted = order.map((beam) => angles[beam]);
+    const first = sorted[0] - (sorted[1] - sorted[0]) / 2;
+    const last = sorted[beams - 1] + (sorted[beams - 1] - sorted[beams - 2]) / 2;
+    const far_m = view.first_range_m + cells * view.cell_m;
+    const inside = (angle: number) => first <= angle && angle <= last;
+    const left = inside(-Math.PI / 2) ? -far_m : Math.min(0, far_m * Math.sin(first));
+    const right = inside(Math.PI / 2) ? far_m : Math.max(0, far_m * Math.sin(last));
+    const near = Math.min(0, far_m * Math.cos(Math.max(Math.abs(first), Math.abs(last))));
+    const far = inside(0) ? far_m : far_m * Math.max(Math.cos(first), Math.cos(last));
+    const metre_px = Math.min(width / (right - left), height / (far - near));
+    const upward = view.beam_axis === "forward";
+    this.frame = {
+      left_m: (left + right) / 2 - width / metre_px / 2,
+      top_m: upward ? far : near,
+      metre_px, upward,
+    };
+    this.cellOfPixel = new Int32Array(width * height).fill(-1);
+    for (let y = 0; y < height; ++y) {
+      for (let x = 0; x < width; ++x) {
+        const { across, along } = this.at(x + 0.5, y + 0.5);
+        const range = Math.hypot(across, along);
+        const angle = Math.atan2(across, along);
+        const cell = Math.floor((range - view.first_range_m) / view.cell_m);
+        if (cell < 0 || cell >= cells || !inside(angle)) continue;
+        let low = 0;
+        let high = beams - 1;
+        while (low < high) {
+          const middle = (low + high) >> 1;
+          if ((sorted[middle] + sorted[middle + 1]) / 2 < angle) low = middle + 1;
+          else high = middle;
+        }
+        this.cellOfPixel[y * width + x] = order[low] * cells + cell;
+      }
+    }
+  }
+
+  private at(x: number, y: number) {
+    const { left_m, top_m, metre_px, upward } = this.frame;
+    return { across: left_m + x / metre_px, along: upward ? top_m - y / metre_px : top_m + y / metre_px };
+  }
+
+  draw(view: View, limits: Limits) {
+    this.view = view;
+    const context = this.canvas.getContext("2d")!;
+    const { width, height } = this.canvas;
+    const beams = view.level.shape[0];
+    if (beams < 2 || !width || !height) return;
+    this.map(view);
+    const image = context.createImageData(width, height);
+    const out = new Uint32Array(image.data.buffer);
+    const table = pixels("inferno", view.level_floor_db, view.level_step_db, limits);
+    const level = view.level.data;
+    const cell = this.cellOfPixel;
+    for (let i = 0; i < out.length; ++i) out[i] = cell[i] < 0 ? EMPTY : table[level[cell[i]]];
+    context.putImageData(image, 0, 0);
+  }
+
+  /** Where a pixel of the canvas is, and its level. */
+  placeOf(x: number, y: number): Place | null {
+    const view = this.view;
+    if (!view || x < 0 || y < 0 || x >= this.canvas.width || y >= this.canvas.height) return null;
+    const { across, along } = this.at(x, y);
+    const cell = this.cellOfPixel[Math.floor(y) * this.canvas.width + Math.floor(x)];
+    const cells = view.level.shape[1];
+    const value = cell < 0 ? 0 : view.level.data[cell];
+    return {
+      across_m: across, along_m: along, range_m: Math.hypot(across, along), angle_rad: Math.atan2(across, along),
+      beam: cell < 0 ? -1 : Math.floor(cell / cells),
+      level_db: value ? view.level_floor_db + (value - 1) * view.level_step_db : null,
+    };
+  }
+}

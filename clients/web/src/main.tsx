@@ -1,0 +1,90 @@
+// The console's page.
+import { render } from "preact";
+import { answer, begin, connected, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { Head, HealthPane } from "./panes";
+
+const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
+
+function Controls() {
+  const s = state.value!;
+  if (!s.may_control || s.state === "ended" || s.state === "waiting") return null;
+  const rate = (event: Event) => {
+    const value = Number((event.target as HTMLInputElement).value);
+    if (Number.isFinite(value) && value >= 0) command("rate", value);
+  };
+  return (
+    <span class="controls">
+      {s.state === "paused" ? <button onClick={() => command("resume")}>resume</button> : <button onClick={() => command("pause")}>pause</button>}
+      <label>rate <input type="number" min="0" step="0.5" value={s.speed} onChange={rate} title="sim seconds per wall second; 0: as fast as possible" /></label>
+      <button onClick={() => confirm("Stop the run?") && command("stop")}>stop</button>
+    </span>
+  );
+}
+
+function Bar() {
+  const s = state.value!;
+  return (
+    <nav>
+      <b>Ensonify</b>
+      <span title={s.launch}>{s.kind} {s.name}</span>
+      <span class={`state ${s.state}`}>{s.state}</span>
+      <span>t = {simTime_s.value.toFixed(1)} s</span>
+      <Controls />
+      {s.message && <span class="note">{s.message}</span>}
+      {answer.value && <span class="error" role="alert">{answer.value}</span>}
+      {!connected.value && <span class="error" role="alert">no connection: {trouble.value}</span>}
+      <span class="right">
+        {viewTopics().map(({ name }) => (
+          <label key={name}><input type="checkbox" checked={panes().includes(name)} onChange={() => toggle(name)} /> {name}</label>
+        ))}
+        {s.items.length > 0 && (
+          <select aria-label="open another run or record" value="" onChange={(e) => send("console_open/1", { id: (e.target as HTMLSelectElement).value })}>
+            <option value="">open ...</option>
+            {s.items.map((item) => <option key={item.id} value={item.id}>{item.text}</option>)}
+          </select>
+        )}
+      </span>
+    </nav>
+  );
+}
+
+const panes = () => shown.value ?? viewTopics().slice(0, 3).map((topic) => topic.name);
+
+function toggle(name: string) {
+  const now = panes();
+  shown.value = now.includes(name) ? now.filter((other) => other !== name) : [...now, name];
+}
+
+function Start() {
+  const s = state.value!;
+  return (
+    <section class="start">
+      <h1>Open a run or a record</h1>
+      {s.items.length === 0 && <p>No run is live, and there are no records in the console's folder (--folder).</p>}
+      <ul>{s.items.map((item) => <li key={item.id}><button onClick={() => send("console_open/1", { id: item.id })}>{item.kind}: {item.text}</button></li>)}</ul>
+      <h2>Start one from a shell</h2>
+      <ul>{s.launches.map((file) => <li key={file}><code>ensonify console {file}</code></li>)}</ul>
+      {answer.value && <p class="error" role="alert">{answer.value}</p>}
+    </section>
+  );
+}
+
+function Page() {
+  const s = state.value;
+  if (!s) return <p class={trouble.value ? "error" : "note"} role="alert">{trouble.value || "Connecting ..."}</p>;
+  if (!s.kind) return <Start />;
+  return (
+    <>
+      <Bar />
+      <div class={`panes n${panes().length}`}>
+        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane"><Head topic={topic} /></section>)}
+        <section class="pane health"><HealthPane /></section>
+      </div>
+    </>
+  );
+}
+
+const root = document.getElementById("page")!;
+root.textContent = "";
+render(<Page />, root);
+begin();

@@ -1,0 +1,242 @@
+// The panes: pictures of heads, and the health of the run.
+import { useEffect, useRef, useState } from "preact/hooks";
+import { FanPicture } from "./fan";
+import { Limits, percentiles, RAMPS } from "./palette";
+import { View } from "./messages";
+import { clock, flow, health, watch } from "./store";
+import { Waterfall } from "./waterfall";
+
+const fixed = (value: number | null | undefined, digits = 1) => (value == null || !Number.isFinite(value) ? "-" : value.toFixed(digits));
+const degrees = (angle: number) => (angle * 180) / Math.PI;
+
+/** How a topic reaches this page. */
+function Flow({ topic }: { topic: string }) {
+  const f = flow.value[topic];
+  if (!f) return null;
+  return (
+    <span class="flow" data-lost={f.lost} data-age={f.age_s}>
+      {fixed(f.rate_hz)} /s · {Math.round(f.age_s * 1000)} ms old · {f.lost} lost{f.halved > 0 && ` · width 1/${2 ** f.halved} for the link`}
+    </span>
+  );
+}
+
+/** Keeps a canvas as large as its place. */
+function useCanvas(resized: (canvas: HTMLCanvasElement) => void) {
+  const ref = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const canvas = ref.current!;
+    const fit = () => {
+      const width = Math.max(1, Math.floor(canvas.clientWidth));
+      const height = Math.max(1, Math.floor(canvas.clientHeight));
+      if (canvas.width === width && canvas.height === height) return;
+      canvas.width = width;
+      canvas.height = height;
+      resized(canvas);
+    };
+    fit();
+    const observer = new ResizeObserver(fit);
+    observer.observe(canvas);
+    return () => observer.disconnect();
+  }, []);
+  return ref;
+}
+
+function settings(view: View): string {
+  return `${fixed(view.frequency_hz / 1e3, 0)} kHz · ${fixed(view.pulse_length_s * 1e3, 3)} ms · source level ${fixed(view.source_level_db, 0)} dB · range ${fixed(view.range_m, 0)} m`;
+}
+
+function gainText(view: View): string {
+  return view.added_spreading_db ? ` + ${view.added_spreading_db} log R, R in m` : "";
+}
+
+/** The colour scale, its ends set by hand or by the picture. */
+function Scale({ ramp, limits, view, set }: { ramp: string; limits: Limits | null; view: View; set(limits: Limits | null): void }) {
+  const colours = [0, 64, 128, 192, 255].map((i) => {
+    const pixel = RAMPS[ramp][i];
+    return `rgb(${pixel & 255},${(pixel >> 8) & 255},${(pixel >> 16) & 255})`;
+  });
+  const change = (key: keyof Limits) => (event: Event) => {
+    const value = Number((event.target as HTMLInputElement).value);
+    if (limits && Number.isFinite(value)) set({ ...limits, [key]: value });
+  };
+  const bar = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    const context = bar.current!.getContext("2d")!;
+    const gradient = context.createLinearGradient(0, 0, 120, 0);
+    colours.forEach((colour, i) => gradient.addColorStop(i / 4, colour));
+    context.fillStyle = gradient;
+    context.fillRect(0, 0, 120, 10);
+  }, [ramp]);
+  return (
+    <span class="scale">
+      <input type="number" step="1" aria-label="level of the darkest colour, dB" value={fixed(limits?.low_db, 0)} onChange={change("low_db")} />
+      <canvas ref={bar} width={120} height={10} />
+      <input type="number" step="1" aria-label="level of the brightest colour, dB" value={fixed(limits?.high_db, 0)} onChange={change("high_db")} />
+      dB re 1 µPa{gainText(view)} <button onClick={() => set(null)}>auto</button>
+    </span>
+  );
+}
+
+interface Pointer {
+  x: number;
+  y: number;
+}
+
+const pointerOf = (event: PointerEvent): Pointer => ({ x: event.offsetX, y: event.offsetY });
+
+function Fan({ topic, first }: { topic: string; first: View }) {
+  const [view, setView] = useState<View>(first);
+  const [given, setGiven] = useState<Limits | null>(null);
+  const [pointer, setPointer] = useState<Pointer | null>(null);
+  const picture = useRef<FanPicture | null>(null);
+  const kept = useRef<{ view: View; given: Limits | null; auto: Limits | null }>({ view: first, given: null, auto: null });
+  kept.current.given = given;
+  const redraw = () => {
+    const { view: newest, given: by, auto } = kept.current;
+    const limits = by ?? auto;
+    if (limits) picture.current?.draw(newest, limits);
+  };
+  const canvas = useCanvas((element) => {
+    picture.current ??= new FanPicture(element);
+    redraw();
+  });
+  const judge = (newest: View) => {
+    const found = percentiles(newest.level.data, newest.level_floor_db, newest.level_step_db, 20, 99.9);
+    const auto = kept.current.auto;
+    if (found) kept.current.auto = auto ? { low_db: 0.9 * auto.low_db + 0.1 * found.low_db, high_db: 0.9 * auto.high_db + 0.1 * found.high_db } : found;
+  };
+  useEffect(() => {
+    judge(first);
+    redraw();
+    return watch(topic, { cells: 1024, spreading_db: 0 }, {
+      take(newest) {
+        kept.current.view = newest;
+      },
+      draw() {
+        judge(kept.current.view);
+        redraw();
+        setView(kept.current.view);
+      },
+    });
+  }, []);
+  useEffect(redraw, [given]);
+  const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
+  return (
+    <>
+      <header>
+        <b>{topic}</b> ping {view.ping} · {settings(view)} <Flow topic={topic} />
+      </header>
+      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={(e) => setPointer(pointerOf(e))} onPointerLeave={() => setPointer(null)} />
+      <footer>
+        <Scale ramp="inferno" limits={given ?? kept.current.auto} view={view} set={setGiven} />
+        <span class="cursor">
+          {place
+            ? `range ${fixed(place.range_m)} m, ${fixed(degrees(place.angle_rad))}°, beam ${place.beam < 0 ? "-" : place.beam}; across ${fixed(place.across_m)} m, ${view.beam_axis === "forward" ? "ahead" : "down"} ${fixed(place.along_m)} m; ${fixed(place.level_db)} dB`
+            : "as the head has it; straight rays at the head's sound speed"}
+        </span>
+      </footer>
+    </>
+  );
+}
+
+function Sidescan({ topic, first }: { topic: string; first: View }) {
+  const [view, setView] = useState<View>(first);
+  const [given, setGiven] = useState<Limits | null>(null);
+  const [pointer, setPointer] = useState<Pointer | null>(null);
+  const fall = useRef<Waterfall | null>(null);
+  const canvas = useCanvas((element) => {
+    if (!fall.current) {
+      fall.current = new Waterfall(element);
+      fall.current.add(first);
+    }
+    fall.current.draw();
+  });
+  useEffect(() => {
+    let newest = first;
+    return watch(topic, { cells: 1024, spreading_db: 30 }, {
+      take(line) {
+        newest = line;
+        fall.current?.add(line);
+      },
+      draw() {
+        fall.current?.draw();
+        setView(newest);
+      },
+    });
+  }, []);
+  useEffect(() => {
+    fall.current?.setLimits(given);
+    fall.current?.draw();
+  }, [given]);
+  const place = pointer && fall.current?.placeOf(pointer.x, pointer.y);
+  const gaps = fall.current?.gaps ?? 0;
+  return (
+    <>
+      <header>
+        <b>{topic}</b> ping {view.ping} · {settings(view)} <Flow topic={topic} /> {gaps > 0 && <span class="gaps">{gaps} pings did not come</span>}
+      </header>
+      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={(e) => setPointer(pointerOf(e))} onPointerLeave={() => setPointer(null)} />
+      <footer>
+        <Scale ramp="copper" limits={fall.current?.limits ?? null} view={view} set={setGiven} />
+        <span class="cursor">
+          {place
+            ? `${place.side}, slant range ${fixed(place.range_m)} m, ping ${place.ping}, t = ${fixed(place.stamp_ns * 1e-9, 2)} s; ${fixed(place.level_db)} dB`
+            : `port · slant range, ${fixed(fall.current?.reach_m)} m to either side · starboard; newest on top`}
+        </span>
+      </footer>
+    </>
+  );
+}
+
+/** Shows what a head sends: with three beams and more a fan, with fewer a waterfall. */
+export function Head({ topic }: { topic: string }) {
+  const [first, setFirst] = useState<View | null>(null);
+  useEffect(() => {
+    if (first) return undefined;
+    return watch(topic, { cells: 1024, spreading_db: 0 }, { take: setFirst, draw() {} });
+  }, [first === null]);
+  if (!first) return <header><b>{topic}</b> waits for a ping</header>;
+  return first.level.shape[0] > 2 ? <Fan topic={topic} first={first} /> : <Sidescan topic={topic} first={first} />;
+}
+
+const time_s = (value: number) => `${value.toFixed(1)} s`;
+
+export function HealthPane() {
+  const c = clock.value;
+  const rows = Object.entries(health.value).sort(([a], [b]) => a.localeCompare(b));
+  return (
+    <>
+      <header><b>health</b> as the processes and the clock say</header>
+      <div class="scroll">
+        {c && (
+          <p>
+            clock: {c.state}; {c.rate ? `${c.rate} x real time asked for, ` : "as fast as possible, "}
+            {fixed(c.rate_factor, 2)} reached; {fixed(c.lateness_s, 3)} s late, {c.slips} slips ({time_s(c.slip_s)})
+          </p>
+        )}
+        <table>
+          <thead><tr><th>process</th><th>state</th><th>why</th><th>counts</th></tr></thead>
+          <tbody>
+            {rows.map(([name, h]) => (
+              <tr key={name} class={h.state}>
+                <td>{name}</td><td>{h.state}</td><td>{h.message}</td>
+                <td>{h.counters.filter((k) => k.count).map((k) => `${k.name} ${k.count}`).join(", ")}</td>
+              </tr>
+            ))}
+          </tbody>
+        </table>
+        {rows.length === 0 && <p class="note">No process has reported since this page was opened: they report when something changes.</p>}
+        {c && (
+          <table>
+            <thead><tr><th>process</th><th>events</th><th>cost</th><th>late</th><th>worst</th></tr></thead>
+            <tbody>
+              {c.participants.map((p) => (
+                <tr key={p.name}><td>{p.name}</td><td>{p.grants}</td><td>{time_s(p.cost_s)}</td><td>{p.late_events}</td><td>{time_s(p.worst_lateness_s)}</td></tr>
+              ))}
+            </tbody>
+          </table>
+        )}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,121 @@
+// What the page knows: signals that the panes show.
+import { signal } from "@preact/signals";
+import { ClockHealth, ConsoleAnswer, ConsoleFlow, ConsoleFlowTopic, ConsoleState, ConsoleTopic, Health, View } from "./messages";
+import { Frame, takeToken, Wire } from "./wire";
+
+export const connected = signal(false);
+export const trouble = signal("");
+export const state = signal<ConsoleState | null>(null);
+export const flow = signal<Record<string, ConsoleFlowTopic>>({});
+export const link = signal<ConsoleFlow | null>(null);
+export const answer = signal("");
+export const simTime_s = signal(0);
+export const health = signal<Record<string, Health>>({});
+export const clock = signal<ClockHealth | null>(null);
+/** Topics whose panes are shown; null: those of the layout. */
+export const shown = signal<string[] | null>(null);
+
+/** What a pane of a head draws. Returns once it is on the canvas. */
+export interface Drawer {
+  take(view: View): void; // every message, in order
+  draw(): void; // once a frame at most
+}
+
+interface Wished {
+  cells: number;
+  spreading_db: number;
+}
+
+const drawers = new Map<string, Drawer>();
+const wishes = new Map<string, Wished>();
+const due = new Map<string, number>(); // seq of the newest message of each topic that waits to be drawn
+let wire: Wire | null = null;
+let frameAsked = false;
+
+export function viewTopics(): ConsoleTopic[] {
+  return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
+}
+
+function watchAll() {
+  const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
+  const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
+  const states = small.slice(0, 64 - heads.length).map(({ name }) => ({ topic: name, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 }));
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...states] });
+}
+
+/** Opens a topic for a pane; the result closes it. */
+export function watch(topic: string, wished: Wished, drawer: Drawer): () => void {
+  drawers.set(topic, drawer);
+  wishes.set(topic, wished);
+  watchAll();
+  return () => {
+    drawers.delete(topic);
+    wishes.delete(topic);
+    watchAll();
+  };
+}
+
+function drawDue() {
+  frameAsked = false;
+  for (const [topic, seq] of due) {
+    drawers.get(topic)?.draw();
+    wire?.send("console_drawn/1", { topic, seq });
+  }
+  due.clear();
+}
+
+function take(frame: Frame) {
+  if (frame.type === "view/1") {
+    simTime_s.value = (frame.content as View).stamp_ns * 1e-9;
+    drawers.get(frame.topic)?.take(frame.content as View);
+    due.set(frame.topic, frame.seq);
+    if (!frameAsked) requestAnimationFrame(drawDue);
+    frameAsked = true;
+  } else if (frame.type === "health/1") {
+    health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
+  } else if (frame.type === "clock_health/1") {
+    clock.value = frame.content as ClockHealth;
+    simTime_s.value = clock.value.stamp_ns * 1e-9;
+  } else if (frame.type === "console_state/1") {
+    const fresh = frame.content as ConsoleState;
+    const other = fresh.name !== state.value?.name;
+    if (other) {
+      health.value = {};
+      clock.value = null;
+      shown.value = null;
+    }
+    state.value = fresh;
+    watchAll();
+  } else if (frame.type === "console_flow/1") {
+    link.value = frame.content as ConsoleFlow;
+    flow.value = Object.fromEntries(link.value.topics.map((topic) => [topic.topic, topic]));
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
+  } else if (frame.type === "console_answer/1") {
+    answer.value = (frame.content as ConsoleAnswer).error;
+  }
+}
+
+export const send = (type: string, content: object) => {
+  answer.value = "";
+  wire?.send(type, content);
+};
+
+export function begin() {
+  const token = takeToken();
+  if (!token) {
+    trouble.value = "Open the whole URL that the console printed: what follows # in it is the key.";
+    return;
+  }
+  wire = new Wire(token, {
+    frame: take,
+    up() {
+      connected.value = true;
+      trouble.value = "";
+    },
+    down(why) {
+      connected.value = false;
+      trouble.value = why;
+    },
+  });
+  document.addEventListener("visibilitychange", watchAll);
+}

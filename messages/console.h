@@ -1,0 +1,201 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What a viewer in a browser and the console's gateway say to each other (docs/manual/console-wire.md). None of it
+/// travels on a run's own planes.
+namespace ensonify::msg {
+
+/// A topic that can be watched.
+struct ConsoleTopic {
+  std::string name;
+  std::string type;
+  std::string publisher;
+  std::string component;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("name", "", "name of the topic; of a head's pictures HEAD/view", self.name);
+    visit("type", "", "message type", self.type);
+    visit("publisher", "", "process that publishes it", self.publisher);
+    visit("component", "", "component of that process; empty: not known", self.component);
+  }
+};
+
+/// Something that can be opened: a live run or a record.
+struct ConsoleItem {
+  std::string id;
+  std::string kind;
+  std::string text;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("id", "", "name by which it is opened", self.id);
+    visit("kind", "", "run or record", self.kind);
+    visit("text", "", "line that describes it", self.text);
+  }
+};
+
+struct ConsoleState {
+  static constexpr const char* kType = "console_state/1";
+  static constexpr const char* kAbout = "What a console shows, to its viewers when they enter and when it changes.";
+  std::string kind;
+  std::string name;
+  std::string launch;
+  std::string state;
+  std::string message;
+  bool may_control = false;
+  std::int64_t exit_code = 0;
+  double speed = 0.0;
+  std::vector<ConsoleTopic> topics;
+  std::vector<ConsoleItem> items;
+  std::vector<std::string> launches;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("kind", "", "kind of source: run, record, or empty where nothing is open", self.kind);
+    visit("name", "", "name of the run or record", self.name);
+    visit("launch", "", "launch file of a run, as far as it is known", self.launch);
+    visit("state", "", "waiting, running, paused or ended", self.state);
+    visit("message", "", "why, in one line", self.message);
+    visit("may_control", "", "true where this viewer may pause, resume, set the rate and stop", self.may_control);
+    visit("exit_code", "1", "exit code of a run that has ended and was started by this console", self.exit_code);
+    visit("speed", "1", "sim seconds per wall second that are asked for; 0: as fast as possible", self.speed);
+    visit("topics", "", "topics that can be watched", self.topics);
+    visit("items", "", "live runs and records that can be opened", self.items);
+    visit("launches", "", "launch files of the installation, to be started from a shell", self.launches);
+  }
+};
+
+/// How one watched topic reaches a viewer.
+struct ConsoleFlowTopic {
+  std::string topic;
+  std::int64_t sent = 0;
+  std::int64_t lost = 0;
+  std::int64_t halved = 0;
+  double rate_hz = 0.0;
+  double age_s = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("topic", "", "name of the topic", self.topic);
+    visit("sent", "1", "number of messages sent to this viewer", self.sent);
+    visit("lost", "1", "number of messages that it was not sent: of pictures those that a newer one replaced", self.lost);
+    visit("halved", "1", "number of times that its pictures are halved in width for the sake of the link", self.halved);
+    visit("rate_hz", "Hz", "messages sent per second of wall time since the report before", self.rate_hz);
+    visit("age_s", "s", "wall time from the arrival of the newest message at the gateway until the viewer had drawn it",
+          self.age_s);
+  }
+};
+
+struct ConsoleFlow {
+  static constexpr const char* kType = "console_flow/1";
+  static constexpr const char* kAbout = "How messages reach a viewer, once a second of wall time.";
+  double link_bytes_per_s = 0.0;
+  std::int64_t waiting_bytes = 0;
+  std::vector<ConsoleFlowTopic> topics;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("link_bytes_per_s", "B/s", "rate of the link as the last pictures found it; 0: not known",
+          self.link_bytes_per_s);
+    visit("waiting_bytes", "B", "size of what waits for this viewer", self.waiting_bytes);
+    visit("topics", "", "topics that are watched", self.topics);
+  }
+};
+
+struct ConsoleEnter {
+  static constexpr const char* kType = "console_enter/1";
+  static constexpr const char* kAbout = "A viewer's first message, within 2 s.";
+  std::string token;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("token", "", "token of the URL to view or to control", self.token);
+  }
+};
+
+/// A topic that a viewer watches.
+struct ConsoleWatched {
+  std::string topic;
+  std::int64_t cells = 1024;
+  bool peak = false;
+  double spreading_db = 0.0;
+  double absorption_dbpm = 0.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("topic", "", "name of the topic", self.topic);
+    visit("cells", "1", "most cells of a picture over range, 16 to 1024", self.cells);
+    visit("peak", "", "true: cells show their strongest sample", self.peak);
+    visit("spreading_db", "dB", "S of the gain S log10(R) + 2 A R to add for display, 0 to 60", self.spreading_db);
+    visit("absorption_dbpm", "dB/m", "absorption A of that gain, 0 to 1", self.absorption_dbpm);
+  }
+};
+
+struct ConsoleWatch {
+  static constexpr const char* kType = "console_watch/1";
+  static constexpr const char* kAbout = "A viewer says all that it watches from now on.";
+  bool hidden = false;
+  std::vector<ConsoleWatched> topics;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("hidden", "", "true while nobody can see the page: nothing is sent to it", self.hidden);
+    visit("topics", "", "topics, at most 64", self.topics);
+  }
+};
+
+struct ConsoleDrawn {
+  static constexpr const char* kType = "console_drawn/1";
+  static constexpr const char* kAbout = "A viewer has drawn a picture or a line and can take the next.";
+  std::string topic;
+  std::int64_t seq = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("topic", "", "name of the topic", self.topic);
+    visit("seq", "1", "seq of the message's envelope", self.seq);
+  }
+};
+
+struct ConsoleOpen {
+  static constexpr const char* kType = "console_open/1";
+  static constexpr const char* kAbout = "A viewer asks for another run or record.";
+  std::string id;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("id", "", "id of an item of console_state/1", self.id);
+  }
+};
+
+struct ConsoleCommand {
+  static constexpr const char* kType = "console_command/1";
+  static constexpr const char* kAbout = "A command to the run, from a viewer that came by the URL to control.";
+  std::string command;
+  double rate = 1.0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("command", "", "pause, resume, rate or stop", self.command);
+    visit("rate", "1", "sim seconds per wall second for the command rate; 0: as fast as possible", self.rate);
+  }
+};
+
+struct ConsoleAnswer {
+  static constexpr const char* kType = "console_answer/1";
+  static constexpr const char* kAbout = "Why something that a viewer asked for was not done.";
+  std::string request;
+  std::string error;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("request", "", "type of the message that asked", self.request);
+    visit("error", "", "cause and what is allowed", self.error);
+  }
+};
+
+}  // namespace ensonify::msg

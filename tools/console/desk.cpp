@@ -1,0 +1,130 @@
+#include "tools/console/desk.h"
+
+#include <algorithm>
+
+#include "components/view/ping_view.h"
+#include "messages/clock.h"
+#include "messages/health.h"
+#include "messages/motion.h"
+
+namespace ensonify::console {
+
+namespace {
+
+constexpr std::chrono::milliseconds kPollBudget{4};
+constexpr std::size_t kKept = 8;        // pictures that several viewers may share
+constexpr std::size_t kFanBeams = 3;    // a head with fewer beams draws lines
+constexpr std::string_view kPing = "ping";
+constexpr std::string_view kView = "view";
+
+bool is_state(const std::string& type) {
+  return type == msg::Health::kType || type == msg::ClockHealth::kType || type == msg::MissionState::kType;
+}
+
+/// Number of beams of a ping, 0 where it says none.
+std::size_t beams_of(const msg::Packet& packet) {
+  const msg::Value ping = msg::decode_value(packet.body, packet.body.size());
+  const msg::Value* angles = ping.find("beam_angle_rad");
+  const auto* array = angles == nullptr ? nullptr : angles->as<msg::RawArray>();
+  return array == nullptr ? 0 : array->size();
+}
+
+}  // namespace
+
+std::string view_topic_of(const std::string& ping_topic) {
+  const std::size_t slash = ping_topic.find('/');
+  if (slash == std::string::npos || ping_topic.compare(slash + 1, kPing.size(), kPing) != 0) return ping_topic + "/view";
+  return ping_topic.substr(0, slash + 1) + std::string(kView) + ping_topic.substr(slash + 1 + kPing.size());
+}
+
+Desk::Desk(std::unique_ptr<Source> source) : source_(std::move(source)) { refresh(); }
+
+void Desk::add(Flow& flow) { viewers_.push_back(&flow); }
+
+void Desk::remove(Flow& flow) {
+  viewers_.remove(&flow);
+  left_ = std::chrono::steady_clock::now();
+  // The source's sockets are let go with the desk, a few seconds after the last viewer.
+  if (!viewers_.empty()) ask_source();
+}
+
+void Desk::settle(Flow& flow, WallTime) {
+  ask_source();
+  for (const auto& [topic, offer] : newest_) flow.offer(offer);
+}
+
+void Desk::ask_source() {
+  std::set<std::string> wanted;
+  for (const auto& [topic, type] : type_of_) {
+    const std::string name = type == msg::Ping::kType ? view_topic_of(topic) : topic;
+    if (std::any_of(viewers_.begin(), viewers_.end(), [&](const Flow* flow) { return flow->watches(name); })) wanted.insert(topic);
+  }
+  source_->want(wanted);
+}
+
+void Desk::refresh() {
+  state_ = source_->state();
+  type_of_.clear();
+  for (msg::ConsoleTopic& topic : state_.topics) {
+    type_of_[topic.name] = topic.type;
+    if (topic.type != msg::Ping::kType) continue;
+    topic.name = view_topic_of(topic.name);
+    topic.type = msg::View::kType;
+  }
+}
+
+bool Desk::poll(WallTime now) {
+  try {
+    source_->poll(now, kPollBudget, [&](msg::Packet packet) { take(std::move(packet), now); });
+  } catch (const msg::DecodeError&) {
+    // A message that cannot be read is passed over; what follows is taken at the next poll.
+  }
+  const msg::ConsoleState fresh = source_->state();
+  const bool topics_changed = fresh.topics.size() != state_.topics.size();
+  if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message && fresh.speed == state_.speed &&
+      fresh.name == state_.name)
+    return false;
+  refresh();
+  if (topics_changed) ask_source();
+  return true;
+}
+
+void Desk::take(msg::Packet packet, WallTime now) {
+  const auto type = type_of_.find(packet.topic);
+  if (type == type_of_.end()) return;
+  Offer offer{packet.topic, Way::line, nullptr, now};
+  if (type->second == msg::Ping::kType) {
+    offer.topic = view_topic_of(packet.topic);
+    try {
+      if (beams_of(packet) >= kFanBeams) offer.way = Way::picture;
+    } catch (const msg::DecodeError&) {
+      return;  // a foreign program's message that is no ping: message_of would say the same
+    }
+  } else if (is_state(type->second)) {
+    offer.way = Way::state;
+  }
+  offer.packet = std::make_shared<const msg::Packet>(std::move(packet));
+  if (offer.way != Way::line) newest_[offer.topic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
+}
+
+msg::Packet Desk::message_of(const Sending& sending) {
+  const msg::Packet& packet = *sending.offer.packet;
+  const auto type = type_of_.find(packet.topic);
+  if (type == type_of_.end() || type->second != msg::Ping::kType) return packet;
+  const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+    return made.of == &packet && made.wish == sending.wish;
+  });
+  if (known != made_.end()) return known->packet;
+
+  const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());
+  const std::string head = packet.topic.substr(0, packet.topic.find('/'));
+  const msg::View view = view_of(ping, source_->beam_axis(head), sending.wish);
+  msg::Packet picture{sending.offer.topic, packet.envelope, msg::encode(view), {}};
+  picture.envelope.type_hash = msg::type_hash(msg::View::kType);
+  made_.push_front({&packet, sending.wish, sending.offer.packet, picture});
+  if (made_.size() > kKept) made_.pop_back();
+  return picture;
+}
+
+}  // namespace ensonify::console

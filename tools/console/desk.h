@@ -1,0 +1,62 @@
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tools/console/flow.h"
+#include "tools/console/source.h"
+
+namespace ensonify::console {
+
+/// One source and those who watch it. Every topic of type ping/1 (HEAD/ping...) has a topic of pictures beside it
+/// (HEAD/view...), made when it is sent.
+class Desk {
+ public:
+  explicit Desk(std::unique_ptr<Source> source);
+
+  void add(Flow& flow);
+  void remove(Flow& flow);
+  bool empty() const { return viewers_.empty(); }
+  WallTime left() const { return left_; }
+
+  /// After a viewer has changed what it watches, or is back: gives it the states that there are.
+  void settle(Flow& flow, WallTime now);
+  /// Takes from the source what has come; true when state() has changed.
+  bool poll(WallTime now);
+
+  const msg::ConsoleState& state() const { return state_; }
+  void command(const msg::ConsoleCommand& command) { source_->command(command); }
+
+  /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
+  msg::Packet message_of(const Sending& sending);
+
+ private:
+  void take(msg::Packet packet, WallTime now);
+  void refresh();
+  void ask_source();
+
+  std::unique_ptr<Source> source_;
+  std::list<Flow*> viewers_;
+  WallTime left_;
+  msg::ConsoleState state_;
+  std::map<std::string, std::string> type_of_;    // of the source's topics
+  std::map<std::string, Offer> newest_;           // of each topic with a state, for who comes later
+  std::map<std::uint32_t, std::uint32_t> epochs_;
+
+  struct Made {  // the last pictures, for several viewers of one size
+    const msg::Packet* of = nullptr;
+    PictureWish wish;
+    std::shared_ptr<const msg::Packet> keep;  // so that `of` stays one ping's address
+    msg::Packet packet;
+  };
+  std::list<Made> made_;
+};
+
+/// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
+std::string view_topic_of(const std::string& ping_topic);
+
+}  // namespace ensonify::console

@@ -1,0 +1,131 @@
+#include "tools/console/desk.h"
+
+#include <catch2/catch.hpp>
+#include <deque>
+
+#include "components/view/ping_view.h"
+#include "messages/health.h"
+#include "messages/sonar.h"
+
+using namespace ensonify;
+using namespace ensonify::console;
+
+namespace {
+
+/// A source that says what a test puts into it.
+class TestSource : public Source {
+ public:
+  std::deque<msg::Packet>& said;
+  std::set<std::string>& wanted;
+  TestSource(std::deque<msg::Packet>& packets, std::set<std::string>& topics) : said(packets), wanted(topics) {}
+
+  msg::ConsoleState state() const override {
+    msg::ConsoleState state;
+    state.kind = "run";
+    state.topics = {{"bow/ping", "ping/1", "bow", ""}, {"side/ping_main", "ping/1", "side", ""}, {"nav/health", "health/1", "nav", ""}};
+    return state;
+  }
+  std::string beam_axis(const std::string& publisher) const override { return publisher == "bow" ? "forward" : "down"; }
+  void want(const std::set<std::string>& topics) override { wanted = topics; }
+  void poll(WallTime, std::chrono::milliseconds, const Take& take) override {
+    while (!said.empty()) {
+      msg::Packet packet = said.front();
+      said.pop_front();
+      if (wanted.contains(packet.topic)) take(packet);
+    }
+  }
+  void command(const msg::ConsoleCommand&) override {}
+};
+
+msg::Packet ping(const std::string& topic, std::size_t beams, std::uint64_t seq) {
+  msg::Ping content;
+  content.sample_period_s = 1e-4;
+  content.applied.sound_speed_mps = 1500.0;
+  content.beam_angle_rad = msg::Array<float>({beams});
+  content.amplitude_upa = msg::Array<float>({beams, 100});
+  for (float& value : content.amplitude_upa.flat()) value = 1.0F;
+  msg::Packet packet{topic, {}, msg::encode(content), {}};
+  packet.envelope.seq = seq;
+  packet.envelope.type_hash = msg::type_hash(msg::Ping::kType);
+  return packet;
+}
+
+struct Scene {
+  std::deque<msg::Packet> said;
+  std::set<std::string> wanted;
+  WallTime now = std::chrono::steady_clock::now();
+  Desk desk{std::make_unique<TestSource>(said, wanted)};
+  Flow flow{now};
+
+  void watch(const std::vector<std::string>& topics) {
+    msg::ConsoleWatch wish;
+    for (const auto& topic : topics) wish.topics.push_back({topic, 16, false, 0.0, 0.0});
+    flow.watch(wish, now);
+    desk.settle(flow, now);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("only topics that somebody watches are asked for") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  CHECK(scene.wanted.empty());
+  scene.watch({"bow/view", "side/view_main"});
+  CHECK(scene.wanted == std::set<std::string>{"bow/ping", "side/ping_main"});
+  scene.watch({"nav/health"});
+  CHECK(scene.wanted == std::set<std::string>{"nav/health"});
+}
+
+TEST_CASE("pings become pictures of the size that is watched, two sides lines, all with the number of their ping") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"bow/view", "side/view_main"});
+  scene.said = {ping("bow/ping", 5, 3), ping("side/ping_main", 2, 9)};
+  scene.desk.poll(scene.now);
+  const auto line = scene.flow.next(scene.now);
+  REQUIRE(line);
+  CHECK(line->offer.topic == "side/view_main");
+  const auto picture = scene.flow.next(scene.now);
+  REQUIRE(picture);
+  CHECK(picture->offer.way == Way::picture);
+  const msg::Packet sent = scene.desk.message_of(*picture);
+  CHECK(sent.topic == "bow/view");
+  CHECK(sent.envelope.seq == 3);
+  CHECK(sent.envelope.type_hash == msg::type_hash("view/1"));
+  const auto view = msg::decode<msg::View>(sent.body, sent.body.size());
+  CHECK(view.level.shape() == std::vector<std::size_t>{5, 15});
+  CHECK(view.beam_axis == "forward");
+}
+
+TEST_CASE("who comes later gets the states and pictures that there are") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"nav/health", "bow/view"});
+  msg::Packet health{"nav/health", {}, msg::encode(msg::Health{}), {}};
+  scene.said = {health, ping("bow/ping", 4, 0)};
+  scene.desk.poll(scene.now);
+  Flow late(scene.now);
+  msg::ConsoleWatch wish;
+  wish.topics = {{"nav/health", 16, false, 0.0, 0.0}, {"bow/view", 16, false, 0.0, 0.0}};
+  late.watch(wish, scene.now);
+  scene.desk.add(late);
+  scene.desk.settle(late, scene.now);
+  CHECK(late.next(scene.now)->offer.topic == "nav/health");
+  CHECK(late.next(scene.now)->offer.topic == "bow/view");
+  scene.desk.remove(late);
+}
+
+TEST_CASE("a ping without samples is no picture") {
+  Scene scene;
+  msg::Ping empty;
+  empty.beam_angle_rad = msg::Array<float>({4});
+  auto packet = std::make_shared<msg::Packet>(msg::Packet{"bow/ping", {}, msg::encode(empty), {}});
+  const Sending sending{{"bow/view", Way::picture, packet, scene.now}, {}};
+  CHECK_THROWS_AS(scene.desk.message_of(sending), NoPicture);
+}
+
+TEST_CASE("topics of pictures stand beside those of pings") {
+  CHECK(view_topic_of("bow/ping") == "bow/view");
+  CHECK(view_topic_of("side/ping_main") == "side/view_main");
+}

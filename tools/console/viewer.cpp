@@ -1,0 +1,181 @@
+#include "tools/console/viewer.h"
+
+#include <algorithm>
+
+#include "components/errors/exit_error.h"
+#include "components/view/ping_view.h"
+#include "messages/console.h"
+#include "messages/value.h"
+#include "tools/console/console.h"
+#include "tools/console/frame.h"
+
+namespace ensonify::console {
+
+namespace {
+
+constexpr const char* kStateTopic = "console/state";
+constexpr const char* kFlowTopic = "console/flow";
+constexpr const char* kAnswerTopic = "console/answer";
+constexpr std::string_view kCommands[] = {"pause", "resume", "rate", "stop"};
+
+template <msg::Message M>
+M read(const msg::Value& value) {
+  M message;
+  msg::from_value(value, message, "");
+  if (const std::string field = msg::not_finite(message); !field.empty()) throw msg::DecodeError(field + ": is no finite number");
+  return message;
+}
+
+}  // namespace
+
+Viewer::Viewer(Console& console, Line& line, WallTime now) : console_(console), line_(line), came_(now), flow_(now), second_(now) {}
+
+Viewer::~Viewer() {
+  if (desk_) desk_->remove(flow_);
+  console_.leave(*this);
+}
+
+template <msg::Message M>
+void Viewer::offer_own(const std::string& topic, const M& message, Way way) {
+  msg::Packet packet{topic, {}, msg::encode(message), {}};
+  packet.envelope.type_hash = msg::type_hash(M::kType);
+  packet.envelope.seq = seq_++;
+  flow_.offer({topic, way, std::make_shared<const msg::Packet>(std::move(packet)), std::chrono::steady_clock::now()}, true);
+}
+
+void Viewer::said(std::string_view text) {
+  const WallTime now = std::chrono::steady_clock::now();
+  std::string type;
+  try {
+    const msg::Value value = msg::from_json(text);
+    const msg::Value* named = value.find("type");
+    const auto* name = named == nullptr ? nullptr : named->as<std::string>();
+    if (name == nullptr) throw msg::DecodeError("a message is a JSON object with the key type");
+    type = *name;
+    take(type, std::string(text), now);
+  } catch (const msg::DecodeError& e) {
+    console_.count_refused("messages that say nothing we know");
+    if (!power_) return line_.close("the first message must be console_enter/1 with a token");
+    answer(type, e.what());
+  } catch (const UserError& e) {
+    answer(type, e.what());
+  }
+  push(now);
+}
+
+void Viewer::take(const std::string& type, const std::string& text, WallTime now) {
+  const msg::Value value = msg::from_json(text);
+  if (!power_) {
+    if (type == msg::ConsoleEnter::kType) power_ = console_.doors().power_of(read<msg::ConsoleEnter>(value).token);
+    if (!power_) {
+      console_.count_refused("viewers without a token of this console");
+      return line_.close("no token of this console: open the URL that it printed");
+    }
+    return sit_at(console_.first());
+  }
+  if (flow_.answered(now)) {
+    send_state();
+    if (desk_) desk_->settle(flow_, now);
+  }
+  if (type == msg::ConsoleDrawn::kType) {
+    const auto drawn = read<msg::ConsoleDrawn>(value);
+    return flow_.drawn(drawn.topic, static_cast<std::uint64_t>(drawn.seq), now);
+  }
+  if (now - second_ > std::chrono::seconds(1)) {
+    second_ = now;
+    said_ = 0;
+  }
+  if (++said_ > kMostPerSecond) {
+    console_.count_refused("messages beyond 50 a second");
+    throw UserError("more than 50 messages in a second");
+  }
+  if (type == msg::ConsoleWatch::kType) {
+    const auto wish = read<msg::ConsoleWatch>(value);
+    flow_.watch(wish, now);
+    if (desk_) desk_->settle(flow_, now);
+  } else if (type == msg::ConsoleOpen::kType) {
+    sit_at(read<msg::ConsoleOpen>(value).id);
+  } else if (type == msg::ConsoleCommand::kType) {
+    const auto command = read<msg::ConsoleCommand>(value);
+    if (power_ != Power::control) {
+      console_.count_refused("commands by the URL to view");
+      throw UserError("this URL is to view only; the other one that the console printed is to control");
+    }
+    if (std::find(std::begin(kCommands), std::end(kCommands), command.command) == std::end(kCommands))
+      throw UserError("command " + command.command + "; allowed: pause, resume, rate, stop");
+    if (!desk_) throw UserError("nothing is open");
+    desk_->command(command);
+  } else {
+    throw msg::DecodeError("type " + type + "; allowed: console_watch/1, console_drawn/1, console_open/1, console_command/1");
+  }
+}
+
+void Viewer::sit_at(const std::string& id) {
+  const std::shared_ptr<Desk> desk = id.empty() ? nullptr : console_.desk(id);
+  if (desk_) desk_->remove(flow_);
+  desk_ = desk;
+  if (desk_) {
+    desk_->add(flow_);
+    desk_->settle(flow_, std::chrono::steady_clock::now());
+  }
+  send_state();
+}
+
+void Viewer::send_state() {
+  msg::ConsoleState state = desk_ ? desk_->state() : msg::ConsoleState{};
+  state.may_control = power_ == Power::control;
+  if (state.kind == "run" && state.state == "ended" && console_.exit_code()) {
+    state.exit_code = *console_.exit_code();
+    state.message = "the run has ended, exit code " + std::to_string(state.exit_code);
+  }
+  state.items = console_.items();
+  state.launches = console_.launches();
+  offer_own(kStateTopic, state, Way::state);
+}
+
+void Viewer::answer(const std::string& request, const std::string& error) {
+  offer_own(kAnswerTopic, msg::ConsoleAnswer{request, error}, Way::state);
+}
+
+void Viewer::tick(WallTime now) {
+  if (!power_) {
+    if (now - came_ > kEnterWithin) {
+      console_.count_refused("viewers that did not enter within 2 s");
+      line_.close("no console_enter/1 within 2 s");
+    }
+    return;
+  }
+  if (now - second_ > std::chrono::seconds(1)) {
+    second_ = now;
+    said_ = 0;
+    if (!flow_.away(now)) offer_own(kFlowTopic, flow_.report(now), Way::state);
+  }
+  push(now);
+}
+
+void Viewer::push(WallTime now) {
+  while (!busy_ && power_) {
+    const auto sending = flow_.next(now);
+    if (!sending) return;
+    try {
+      const bool own = sending->offer.topic.starts_with("console/");
+      const auto parts = frame_of(own || !desk_ ? *sending->offer.packet : desk_->message_of(*sending));
+      flow_.sent(size_of(parts));
+      busy_ = true;
+      line_.send(parts);
+    } catch (const NoPicture& e) {
+      flow_.drawn(sending->offer.topic, sending->offer.packet->envelope.seq, now);
+      answer(sending->offer.topic, e.what());
+    } catch (const msg::DecodeError& e) {
+      flow_.drawn(sending->offer.topic, sending->offer.packet->envelope.seq, now);
+      answer(sending->offer.topic, e.what());
+    }
+  }
+}
+
+void Viewer::sent() {
+  busy_ = false;
+  push(std::chrono::steady_clock::now());
+}
+
+}  // namespace ensonify::console
