@@ -126,12 +126,13 @@ class LiveSource : public Source {
       due_ = now + kLookAgain;
     }
     const WallTime until = now + budget;
+    const WallTime at_once = std::chrono::steady_clock::now();
     // Round and round, so that a topic with much to say leaves the others their turn.
     bool more = true;
     while (more && std::chrono::steady_clock::now() < until) {
       more = false;
       for (auto& [topic, observer] : observers_) {
-        auto packet = observer->next(WallTime::min());
+        auto packet = observer->next(at_once);
         if (!packet) continue;
         more = true;
         take(std::move(*packet));
@@ -173,7 +174,7 @@ class LiveSource : public Source {
   void note(const Look& look) {
     if (!run_) return;
     if (look.there) {
-      state_ = look.state;
+      state_ = look.state == "done" || look.state == "failed" ? "ended" : look.state;
       rate_ = look.rate;
       return;
     }
@@ -206,7 +207,7 @@ class LiveSource : public Source {
   std::future<Look> looking_;
   std::future<std::string> commanding_;
   std::string error_;  // of the last command
-  WallTime due_ = WallTime::min();
+  WallTime due_;  // of the next question
 };
 
 }  // namespace

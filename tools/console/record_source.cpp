@@ -31,10 +31,8 @@ class RecordSource : public Source {
  public:
   RecordSource(std::string file, const RecordOptions& options) : file_(std::move(file)), options_(options), speed_(options.speed) {
     rewind();
-    for (const auto& [id, channel] : reader_->channels()) {
-      const std::string publisher = channel.topic.substr(0, channel.topic.find('/'));
-      topics_.push_back({channel.topic, channel.type, publisher, ""});
-    }
+    read_next();  // records of other writers name their topics among the messages
+    list_topics();
     for (const record::Attachment& attachment : reader_->attachments()) {
       if (attachment.name != record::kDeclarationsName) continue;
       for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(attachment.data)) axes_[head] = declaration.beam_axis;
@@ -90,6 +88,15 @@ class RecordSource : public Source {
  private:
   std::int64_t time_of(const record::RecordedMessage& message) const { return message.t_sim.count() + shift_ns_; }
 
+  void list_topics() {
+    if (topics_.size() == reader_->channels().size()) return;
+    topics_.clear();
+    for (const auto& [id, channel] : reader_->channels()) {
+      const std::string publisher = channel.topic.substr(0, channel.topic.find('/'));
+      topics_.push_back({channel.topic, channel.type, publisher, ""});
+    }
+  }
+
   void rewind() {
     next_.reset();
     reader_ = std::make_unique<record::RecordReader>(file_);
@@ -106,6 +113,7 @@ class RecordSource : public Source {
     newest_ns_ = std::max(newest_ns_.value_or(INT64_MIN), message.t_sim.count());
     if (!oldest_ns_) oldest_ns_ = message.t_sim.count();
     next_ = std::move(message);
+    if (reader_->channels().size() > topics_.size()) list_topics();
     return true;
   }
 

@@ -25,6 +25,12 @@ export class FanPicture {
   private cellOfPixel = new Int32Array(0);
   private mapped = "";
 
+  /** Cells for this canvas: somewhat finer than its pixels, so that the source averages and no pixel skips a cell. */
+  get cells(): number {
+    return Math.max(64, Math.min(1024, Math.ceil(1.5 * this.radius_px)));
+  }
+  private radius_px = 1024;
+
   constructor(private canvas: HTMLCanvasElement) {}
 
   /** Which cell every pixel shows; made anew when the geometry changes. */
@@ -46,6 +52,7 @@ export class FanPicture {
     const near = Math.min(0, far_m * Math.cos(Math.max(Math.abs(first), Math.abs(last))));
     const far = inside(0) ? far_m : far_m * Math.max(Math.cos(first), Math.cos(last));
     const metre_px = Math.min(width / (right - left), height / (far - near));
+    this.radius_px = metre_px * far_m;
     const upward = view.beam_axis === "forward";
     this.frame = {
       left_m: (left + right) / 2 - width / metre_px / 2,

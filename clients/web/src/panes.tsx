@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { FanPicture } from "./fan";
 import { Limits, percentiles, RAMPS } from "./palette";
 import { View } from "./messages";
-import { clock, flow, health, watch } from "./store";
+import { clock, flow, health, watch, wish } from "./store";
 import { Waterfall } from "./waterfall";
 
 const fixed = (value: number | null | undefined, digits = 1) => (value == null || !Number.isFinite(value) ? "-" : value.toFixed(digits));
@@ -42,7 +42,7 @@ function useCanvas(resized: (canvas: HTMLCanvasElement) => void) {
 }
 
 function settings(view: View): string {
-  return `${fixed(view.frequency_hz / 1e3, 0)} kHz · ${fixed(view.pulse_length_s * 1e3, 3)} ms · source level ${fixed(view.source_level_db, 0)} dB · range ${fixed(view.range_m, 0)} m`;
+  return `${fixed(view.frequency_hz / 1e3, 0)} kHz · ${fixed(view.pulse_length_s * 1e3, 3)} ms · ${fixed(view.source_level_db, 0)} dB · ${fixed(view.range_m, 0)} m`;
 }
 
 function gainText(view: View): string {
@@ -94,7 +94,9 @@ function Fan({ topic, first }: { topic: string; first: View }) {
   const redraw = () => {
     const { view: newest, given: by, auto } = kept.current;
     const limits = by ?? auto;
-    if (limits) picture.current?.draw(newest, limits);
+    if (!limits || !picture.current) return;
+    picture.current.draw(newest, limits);
+    wish(topic, { cells: picture.current.cells, spreading_db: 0 });
   };
   const canvas = useCanvas((element) => {
     picture.current ??= new FanPicture(element);
@@ -180,8 +182,10 @@ function Sidescan({ topic, first }: { topic: string; first: View }) {
         <Scale ramp="copper" limits={fall.current?.limits ?? null} view={view} set={setGiven} />
         <span class="cursor">
           {place
-            ? `${place.side}, slant range ${fixed(place.range_m)} m, ping ${place.ping}, t = ${fixed(place.stamp_ns * 1e-9, 2)} s; ${fixed(place.level_db)} dB`
-            : `port · slant range, ${fixed(fall.current?.reach_m)} m to either side · starboard; newest on top`}
+            ? `${place.side}slant range ${fixed(place.range_m)} m, ping ${place.ping}, t = ${fixed(place.stamp_ns * 1e-9, 2)} s; ${fixed(place.level_db)} dB`
+            : fall.current?.single
+              ? `slant range from 0 to ${fixed(fall.current.reach_m)} m; newest on top`
+              : `port · slant range, ${fixed(fall.current?.reach_m)} m to either side · starboard; newest on top`}
         </span>
       </footer>
     </>

@@ -49,10 +49,19 @@ export function watch(topic: string, wished: Wished, drawer: Drawer): () => void
   wishes.set(topic, wished);
   watchAll();
   return () => {
+    if (drawers.get(topic) !== drawer) return; // another pane has taken it over
     drawers.delete(topic);
     wishes.delete(topic);
     watchAll();
   };
+}
+
+/** Another size or gain for a pane that is watching. */
+export function wish(topic: string, wished: Wished) {
+  const now = wishes.get(topic);
+  if (!now || (now.cells === wished.cells && now.spreading_db === wished.spreading_db)) return;
+  wishes.set(topic, wished);
+  watchAll();
 }
 
 function drawDue() {

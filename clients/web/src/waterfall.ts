@@ -1,4 +1,5 @@
-// A waterfall: the newest ping at the top, port to the left and starboard to the right, slant range.
+// A waterfall: the newest ping at the top, port to the left and starboard to the right, slant range. Of a single beam (an
+// echogram) the range grows from left to right.
 import { View } from "./messages";
 import { EMPTY, GAP, Limits, percentiles, pixels } from "./palette";
 
@@ -96,17 +97,23 @@ export class Waterfall {
     const cells = view.level.shape[1];
     const { port, starboard } = this.beams(view);
     const table = pixels("copper", view.level_floor_db, view.level_step_db, this.limits ?? { low_db: 0, high_db: 1 });
-    const image = new ImageData(2 * cells, 1);
+    const single = port === starboard;
+    const wide = single ? cells : 2 * cells;
+    const image = new ImageData(wide, 1);
     const out = new Uint32Array(image.data.buffer).fill(EMPTY);
     const level = view.level.data;
     for (let i = 0; i < cells; ++i) {
-      if (port !== starboard || view.beam_angle_rad.data[port] <= 0) out[cells - 1 - i] = table[level[port * cells + i]];
-      if (port !== starboard || view.beam_angle_rad.data[port] > 0) out[cells + i] = table[level[starboard * cells + i]];
+      if (!single) out[cells - 1 - i] = table[level[port * cells + i]];
+      out[(single ? 0 : cells) + i] = table[level[starboard * cells + i]];
     }
-    this.row.width = 2 * cells;
+    this.row.width = wide;
     this.row.height = 1;
     this.row.getContext("2d")!.putImageData(image, 0, 0);
-    context.drawImage(this.row, 0, 0, 2 * cells, 1, 0, y, 2 * SIDE, 1);
+    context.drawImage(this.row, 0, 0, wide, 1, 0, y, 2 * SIDE, 1);
+  }
+
+  get single(): boolean {
+    return this.lines.find((line) => line.view)?.view?.level.shape[0] === 1;
   }
 
   /** Slant range at either edge: that of the newest line. */
@@ -143,11 +150,12 @@ export class Waterfall {
     const view = line.view;
     const cells = view.level.shape[1];
     const { port, starboard } = this.beams(view);
-    const part = (2 * x) / this.canvas.width - 1;
+    const single = port === starboard;
+    const part = single ? x / this.canvas.width : (2 * x) / this.canvas.width - 1;
     const cell = Math.min(cells - 1, Math.floor(Math.abs(part) * cells));
     const value = view.level.data[(part < 0 ? port : starboard) * cells + cell];
     return {
-      side: part < 0 ? "port" : "starboard", range_m: view.first_range_m + Math.abs(part) * cells * view.cell_m, ping: line.ping,
+      side: single ? "" : part < 0 ? "port, " : "starboard, ", range_m: view.first_range_m + Math.abs(part) * cells * view.cell_m, ping: line.ping,
       stamp_ns: view.stamp_ns, level_db: value ? view.level_floor_db + (value - 1) * view.level_step_db : null,
     };
   }

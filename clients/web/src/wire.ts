@@ -14,8 +14,8 @@ export interface Frame {
 const ENVELOPE = 64;
 const MAGIC = 0x31534e45;
 const KINDS = {
-  u8: Uint8Array, i16: Int16Array, u16: Uint16Array, i32: Int32Array, u32: Uint32Array, i64: BigInt64Array, f32: Float32Array,
-  f64: Float64Array,
+  u1: Uint8Array, i2: Int16Array, u2: Uint16Array, i4: Int32Array, u4: Uint32Array, i8: BigInt64Array, f4: Float32Array,
+  f8: Float64Array,
 };
 
 const padded = (size: number) => Math.ceil(size / 8) * 8;

@@ -1,0 +1,108 @@
+"""Starts `ensonify console` for a test, and makes records whose content is known."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+SOURCE = pathlib.Path(os.environ["ENSONIFY_SOURCE"])
+BIN = pathlib.Path(os.environ["ENSONIFY_BIN"])
+sys.path.insert(0, str(SOURCE / "tools/plot/tests"))
+
+import ensonify  # noqa: E402
+import synthetic_heads  # noqa: E402
+
+SOUND_SPEED_MPS = 1500.0
+STEP_M = 0.06
+
+
+def fan(pings=20, beams=61, samples=1000, rate_hz=10.0, target=(12, 35.1), level_db=120.0, step_m=STEP_M):
+    """A head of 120 degrees in silence of 60 dB, with one sample of one beam that stands out: `target` is its beam and range."""
+    angles = np.linspace(-np.pi / 3, np.pi / 3, beams).astype("f4")
+    for ping in range(pings):
+        amplitude = np.full((beams, samples), 1e3, "f4")
+        amplitude[target[0], round(target[1] / step_m)] = 10 ** (level_db / 20)
+        yield "bow/ping", ensonify.Ping(
+            stamp_ns=int(ping / rate_hz * 1e9), ping=ping, kind="multibeam", sample_period_s=2 * step_m / SOUND_SPEED_MPS,
+            first_sample_s=0.0, beam_angle_rad=angles, amplitude_upa=amplitude, range_m=samples * step_m, **synthetic_heads.applied())
+
+
+def sides(pings=20, samples=600, rate_hz=10.0):
+    """A sidescan of 36 m whose level in dB is 80 + the ping's number to port and 100 to starboard, everywhere."""
+    for ping in range(pings):
+        amplitude = np.empty((2, samples), "f4")
+        amplitude[0], amplitude[1] = 10 ** ((80 + ping % 20) / 20), 1e5
+        yield "fish/ping", ensonify.Ping(
+            stamp_ns=int(ping / rate_hz * 1e9), ping=ping, kind="sidescan", sample_period_s=2 * STEP_M / SOUND_SPEED_MPS,
+            first_sample_s=0.0, beam_angle_rad=np.array([-1.0, 1.0], "f4"), amplitude_upa=amplitude, range_m=samples * STEP_M,
+            **synthetic_heads.applied())
+
+
+def health(times_s=(0.0, 1.0)):
+    for i, t_s in enumerate(times_s):
+        yield "nav/health", ensonify.Health(stamp_ns=int(t_s * 1e9), state="degraded", message=f"<b>report</b> {i}",
+                                            counters=[ensonify.Counter(name="fixes", count=i)])
+
+
+def write_record(file, *streams, declares=None):
+    """In the order of time."""
+    messages = sorted((message for stream in streams for message in stream), key=lambda m: m[1].stamp_ns)
+    return synthetic_heads.write(file, messages, declares)
+
+
+class Console:
+    """The gateway in a process of its own."""
+
+    def __init__(self, *words, env=None):
+        self.log = tempfile.NamedTemporaryFile("w+", suffix=".log")
+        self.process = subprocess.Popen([BIN / "ensonify-console", *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                        stderr=self.log, text=True, env={**os.environ, **(env or {})})
+        self.view = self._url("to view:")
+        self.control = self._url("to control:")
+        self.port = int(self.view.split("#")[0].rstrip("/").rsplit(":", 1)[1])
+
+    def _url(self, label):
+        line = self.process.stdout.readline()
+        if not line.startswith(label):
+            self.process.wait(10)
+            raise AssertionError(f"no line {label!r} but {line!r}; {self.stderr()}")
+        return line.split(": ", 1)[1].strip()
+
+    def stderr(self):
+        return pathlib.Path(self.log.name).read_text()
+
+    def lives(self):
+        return self.process.poll() is None
+
+    def stop(self):
+        if self.lives():
+            self.process.send_signal(signal.SIGINT)
+        try:
+            self.process.wait(20)
+        finally:
+            self.process.kill()
+            self.process.stdout.close()
+        return self.process.returncode
+
+
+class ConsoleTest(unittest.TestCase):
+    """Consoles end with the test, and none of them may have died."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def console(self, *words, **more):
+        console = Console(*words, **more)
+        self.addCleanup(console.stop)
+        return console
+
+    def wait_for(self, what, patience_s=10.0):
+        end = time.monotonic() + patience_s
+        while not what():
+            self.assertLess(time.monotonic(), end, "waited too long")
+            time.sleep(0.02)

@@ -1,0 +1,186 @@
+"""The page in a real browser: records of known content, and laws of what is drawn. Screenshots go to ENSONIFY_SHOTS, where that is set."""
+import math
+import os
+import pathlib
+import shutil
+import time
+import unittest
+
+import ensonify
+import numpy as np
+
+from console import ConsoleTest, fan, health, sides, write_record
+
+CHROMIUM = shutil.which("chromium")
+try:
+    from playwright.sync_api import sync_playwright
+except ImportError:
+    sync_playwright = None
+
+# Every pixel of a canvas as numbers, and the cursor's line for one of them.
+PIXELS = """canvas => { const d = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+  return {width: d.width, height: d.height, data: Array.from(new Uint32Array(d.data.buffer))}; }"""
+
+
+@unittest.skipUnless(CHROMIUM and sync_playwright, "no chromium, or no playwright")
+class Page(ConsoleTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.playwright = sync_playwright().start()
+        cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--enable-unsafe-swiftshader"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.playwright.stop()
+
+    def open(self, url, width=1400, height=850):
+        page = self.browser.new_page(viewport={"width": width, "height": height})
+        self.addCleanup(page.close)
+        self.errors, self.asked = [], set()
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
+        page.on("request", lambda request: self.asked.add(request.url.split("/")[2]) if request.url.startswith("http") else None)
+        page.goto(url)
+        return page
+
+    def picture(self, page, topic):
+        """The canvas as height x width numbers, 0xAABBGGRR."""
+        made = page.locator(f'canvas[data-topic="{topic}"]').evaluate(PIXELS)
+        return np.array(made["data"], np.uint32).reshape(made["height"], made["width"])
+
+    def wait_for_flow(self, page, panes=1):
+        self.wait_for(lambda: page.locator(".flow").count() >= panes, 15)
+
+    def cursor(self, page, topic, x, y):
+        page.locator(f'canvas[data-topic="{topic}"]').hover(position={"x": x, "y": y})
+        return page.locator(f'.pane:has(canvas[data-topic="{topic}"]) .cursor').inner_text()
+
+    def shot(self, page, name):
+        if os.environ.get("ENSONIFY_SHOTS"):
+            page.screenshot(path=pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png")
+
+    def brightest(self, page, topic):
+        """Mean place and number of the pixels of the brightest colour, and the place of one of them."""
+        picture = self.picture(page, topic)
+        red, green, blue = (((picture >> shift) & 255).astype(int) for shift in (0, 8, 16))
+        rows, columns = np.nonzero(red + green + blue == (red + green + blue).max())
+        one = len(rows) // 2
+        return columns.mean() + 0.5, rows.mean() + 0.5, len(rows), (columns[one] + 0.5, rows[one] + 0.5)
+
+    def fan_scale(self, width, height, first_rad, last_rad, far_m):
+        """Scale and left edge of a fan of less than 90 degrees to either side in a canvas: the whole fan, as large as it goes."""
+        right = far_m * math.sin(last_rad)
+        metre_px = min(width / (2 * right), height / far_m)
+        return metre_px, -width / metre_px / 2
+
+    def check_target(self, axis):
+        beams, target, step_m, samples = 61, (12, 35.04), 0.12, 500  # cells that are about as large as pixels
+        declares = {"bow": ensonify.HeadDeclaration(kind="multibeam", beam_axis=axis)}
+        at = self.console(write_record(self.folder / "fan.mcap", fan(target=target, samples=samples, step_m=step_m), declares=declares), "--loop")
+        page = self.open(at.view)
+        self.wait_for_flow(page)
+        x, y, count, bright = self.brightest(page, "bow/view")
+        picture = self.picture(page, "bow/view")
+        height, width = picture.shape
+        step_rad = (2 * math.pi / 3) / (beams - 1)
+        edge_rad = math.pi / 3 + step_rad / 2
+        far_m = (samples - 0.5) * step_m
+        metre_px, left_m = self.fan_scale(width, height, -edge_rad, edge_rad, far_m)
+        angle = -math.pi / 3 + target[0] * step_rad
+        want_x = (target[1] * math.sin(angle) - left_m) * metre_px
+        along = target[1] * math.cos(angle)
+        want_y = (far_m - along) * metre_px if axis == "forward" else along * metre_px
+        self.assertLess(math.hypot(x - want_x, y - want_y), 2.0, ((x, y), (want_x, want_y)))
+        # A sample thick and a beam wide, but for whole pixels.
+        arc_px = target[1] * step_rad * metre_px
+        self.assertLess(abs(count - arc_px * max(1.0, step_m * metre_px)), 1.5 * arc_px)
+        line = self.cursor(page, "bow/view", *bright)
+        self.assertIn("beam 12", line)
+        self.assertIn("120.0 dB", line)
+        self.assertRegex(line, r"range 3(4\.9|5\.[012]) m, -3[567]\.\d°")
+        # The rest of the fan is of one colour: its level is one.
+        inside = picture[int(want_y) - 40, width // 2]
+        self.assertNotEqual(inside, picture[2, 2])
+        self.assertEqual(self.errors, [])
+        self.assertEqual(self.asked, {f"127.0.0.1:{at.port}"})
+
+    def test_a_target_lies_at_its_place_in_the_fan_with_its_level(self):
+        self.check_target("down")
+
+    def test_of_a_head_that_looks_forward_ahead_is_up(self):
+        self.check_target("forward")
+
+    def test_a_waterfall_has_the_newest_ping_on_top_and_port_to_the_left(self):
+        at = self.console(write_record(self.folder / "sides.mcap", sides(pings=200)), "--loop", "--rate", "5")
+        page = self.open(at.control)
+        self.wait_for_flow(page)
+        self.wait_for(lambda: int(page.locator(".pane header").first.inner_text().split("ping ")[1].split()[0]) > 60, 15)
+        page.get_by_role("button", name="pause").click()
+        page.wait_for_selector("text=resume")
+        time.sleep(0.3)
+        picture = self.picture(page, "fish/view")
+        height, width = picture.shape
+        newest = int(self.cursor(page, "fish/view", width * 3 // 4, 1).split("ping ")[1].split(",")[0])
+        for row in (0, 1, 7, 30):
+            for x, side, level in ((width // 4, "port", 80 + (newest - row) % 20), (3 * width // 4, "starboard", 100)):
+                line = self.cursor(page, "fish/view", x, row + 0.5)
+                self.assertIn(f"{side}, slant range", line)
+                self.assertIn(f"ping {newest - row},", line)
+                # 30 log R was added: half way out, with what half a decibel rounds away and a pixel's width covers.
+                want = level + 30 * math.log10(18.0)
+                self.assertAlmostEqual(float(line.split("; ")[1].split(" dB")[0]), want, delta=0.6, msg=line)
+        # Rows of equal level have equal colours, 20 rows on, and others have not.
+        middle = width // 4
+        self.assertEqual(picture[3, middle], picture[23, middle])
+        self.assertNotEqual(picture[3, middle], picture[13, middle])
+        self.shot(page, "waterfall")
+        self.assertEqual(self.errors, [])
+
+    def test_gaps_are_drawn_and_counted(self):
+        messages = [m for m in sides(pings=40) if not 10 <= m[1].ping < 15]
+        at = self.console(write_record(self.folder / "gap.mcap", messages), "--rate", "5")
+        page = self.open(at.view)
+        page.wait_for_selector("text=5 pings did not come", timeout=15_000)
+        picture = self.picture(page, "fish/view")
+        self.assertIn(0xFF705030, picture[:, picture.shape[1] // 3].tolist())
+
+    def test_names_and_messages_are_text_never_markup(self):
+        at = self.console(write_record(self.folder / "health.mcap", sides(pings=20), health()), "--loop")
+        page = self.open(at.view)
+        page.wait_for_selector("td:has-text('<b>report</b>')", timeout=15_000)
+        self.assertEqual(page.locator("td b").count(), 0)
+        self.assertEqual(self.errors, [])
+
+    def test_from_the_url_to_a_picture_no_click_is_needed_and_it_does_not_take_long(self):
+        at = self.console(write_record(self.folder / "two.mcap", fan(), sides(), health()), "--loop")
+        began = time.monotonic()
+        page = self.open(at.control)
+        page.wait_for_selector("canvas.picture", timeout=15_000)
+        self.assertLess(time.monotonic() - began, 10)  # a guard against standing still; the goal is a benchmark's
+        self.wait_for_flow(page, 2)
+        self.assertNotIn("#", page.url)  # the token is out of the address bar
+        page.reload()
+        self.wait_for_flow(page, 2)
+        self.shot(page, "console")
+        self.assertEqual(self.errors, [])
+
+    def test_without_its_token_the_page_says_what_to_open(self):
+        at = self.console(write_record(self.folder / "fan.mcap", fan()), "--loop")
+        page = self.open(at.view.split("#")[0])
+        page.wait_for_selector("text=Open the whole URL")
+        page = self.open(at.view.split("#")[0] + "#" + "0" * 32)
+        page.wait_for_selector("text=no token of this console")
+
+    def test_it_may_not_be_framed_by_another_page(self):
+        at = self.console(write_record(self.folder / "fan.mcap", fan()), "--loop")
+        page = self.browser.new_page()
+        self.addCleanup(page.close)
+        page.set_content(f'<iframe src="{at.view}"></iframe>')
+        time.sleep(1)
+        frame = page.frames[-1]
+        self.assertEqual(frame.locator("canvas").count(), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
