@@ -101,7 +101,7 @@ struct ConsoleFlow {
   static void fields(Self& self, Visit&& visit) {
     visit("link_bytes_per_s", "B/s", "rate of the link as the last pictures found it; 0: not known",
           self.link_bytes_per_s);
-    visit("waiting_bytes", "B", "size of what waits for this viewer", self.waiting_bytes);
+    visit("waiting_bytes", "1", "number of bytes that wait for this viewer", self.waiting_bytes);
     visit("topics", "", "topics that are watched", self.topics);
   }
 };

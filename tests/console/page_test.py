@@ -9,13 +9,15 @@ import unittest
 import ensonify
 import numpy as np
 
-from console import ConsoleTest, fan, health, sides, write_record
+from console import SOURCE, ConsoleTest, fan, health, sides, write_record
 
 CHROMIUM = shutil.which("chromium")
 try:
     from playwright.sync_api import sync_playwright
 except ImportError:
     sync_playwright = None
+
+SHOWN_S = 40 if os.environ.get("ENSONIFY_SHOTS") else 5  # sim time of a survey that is watched
 
 # Every pixel of a canvas as numbers, and the cursor's line for one of them.
 PIXELS = """canvas => { const d = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -162,8 +164,36 @@ class Page(ConsoleTest):
         self.assertNotIn("#", page.url)  # the token is out of the address bar
         page.reload()
         self.wait_for_flow(page, 2)
-        self.shot(page, "console")
         self.assertEqual(self.errors, [])
+
+    def test_a_live_survey_is_seen_as_it_is_run(self):
+        launch = self.folder / "two.yaml"
+        launch.write_text(f"""
+ensonify: launch/1
+scenario: {SOURCE}/scenarios/bay/scenario.yaml
+duration_s: 600
+processes:
+  boat:  {{ run: vehicle }}
+  nav:   {{ run: navigation }}
+  pilot: {{ run: autopilot }}
+  pager: {{ run: terrain_pager }}
+  bow:   {{ run: multibeam, config: {{ beams: 128, quality: 0.25, range_m: 60, ping_rate_hz: 5 }} }}
+  side:  {{ run: sidescan, config: {{ quality: 0.25 }} }}
+""")
+        runs = self.folder / "runs"
+        runs.mkdir(mode=0o700)
+        at = self.console(launch, "--out", self.folder / "out", "--rate", "1", env={"XDG_RUNTIME_DIR": str(runs)})
+        page = self.open(at.control, 1500, 900)
+        self.wait_for(lambda: page.locator(".flow").count() >= 2, 60)
+        page.wait_for_selector("text=clock: running", timeout=20_000)
+        self.wait_for(lambda: float(page.locator("nav").inner_text().split("t = ")[1].split(" s")[0]) > SHOWN_S, 90)
+        for topic in ("bow/view", "side/view_main"):
+            self.assertGreater(len(np.unique(self.picture(page, topic))), 50, topic)  # no black image
+        self.shot(page, "console")
+        page.on("dialog", lambda dialog: dialog.accept())
+        page.get_by_role("button", name="stop").click()
+        self.assertEqual(at.process.wait(60), 0)
+        self.assertEqual([error for error in self.errors if "WebSocket" not in error], [])
 
     def test_without_its_token_the_page_says_what_to_open(self):
         at = self.console(write_record(self.folder / "fan.mcap", fan()), "--loop")

@@ -63,7 +63,7 @@ Flow::Topic* Flow::ready(Way way) {
   return nullptr;
 }
 
-std::optional<Sending> Flow::next(WallTime now) {
+std::optional<Sending> Flow::next(WallTime now, std::size_t in_link) {
   if (away(now)) {
     was_away_ = true;
     // Lines would only be old when the viewer is back: the gap is counted.
@@ -74,37 +74,52 @@ std::optional<Sending> Flow::next(WallTime now) {
     return std::nullopt;
   }
   for (const Way way : {Way::state, Way::line, Way::picture}) {
+    if (way != Way::state && in_link > kInLink) return std::nullopt;
     Topic* topic = ready(way);
     if (topic == nullptr) continue;
     Sending sending{topic->waiting.front(), topic->wish};
     topic->waiting.pop_front();
     sending.wish.cells = std::max(topic->wish.cells >> topic->halved, kLeastCells);
     ++topic->sent;
-    if (way != Way::state) topic->on_its_way.push_back({sending.offer.packet->envelope.seq, now, sending.offer.arrived, 0});
     last_topic_ = sending.offer.topic;
+    next_in_link_.reset();
+    if (way != Way::state) {
+      topic->on_its_way.push_back({sending.offer.packet->envelope.seq, sending.offer.arrived});
+      next_in_link_ = {last_topic_, now, 0};
+    }
     return sending;
   }
   return std::nullopt;
 }
 
 void Flow::sent(std::size_t bytes) {
-  const auto topic = topics_.find(last_topic_);
-  if (topic != topics_.end() && !topic->second.on_its_way.empty()) topic->second.on_its_way.back().bytes = bytes;
+  if (!next_in_link_ || (in_link_ && in_link_->bytes >= bytes)) return;
+  next_in_link_->bytes = bytes;
+  in_link_ = next_in_link_;
 }
 
-void Flow::judge(Topic& topic, WallTime sent, WallTime now) {
-  if (sent < topic.halved_at) return;
-  const auto took = now - sent;
+void Flow::passed(WallTime now, bool empty) {
+  if (!in_link_) return;
+  const auto took = now - in_link_->began;
+  if (!empty && took <= kSlow) return;
+  if (empty && in_link_->bytes > kInLink && took.count() > 0)
+    link_bytes_per_s_ = static_cast<double>(in_link_->bytes) / seconds(took);
+  judge(took);
+  in_link_.reset();
+}
+
+/// The link has needed so long for the message that is timed, or longer.
+void Flow::judge(std::chrono::nanoseconds took) {
+  const auto found = topics_.find(in_link_->topic);
+  if (found == topics_.end()) return;
+  Topic& topic = found->second;
   if (took > kSlow) {
     topic.fast = 0;
-    if (topic.halved == kMostHalvings || (topic.wish.cells >> topic.halved) <= kLeastCells) return;
-    ++topic.halved;
-    topic.halved_at = now;
+    if (topic.halved < kMostHalvings && (topic.wish.cells >> topic.halved) > kLeastCells) ++topic.halved;
   } else if (took < kFast) {
     if (++topic.fast < kFastEnough || topic.halved == 0) return;
     topic.fast = 0;
     --topic.halved;
-    topic.halved_at = now;
   }
 }
 
@@ -114,11 +129,7 @@ void Flow::drawn(const std::string& name, std::uint64_t seq, WallTime now) {
   Topic& topic = found->second;
   const auto it = std::find_if(topic.on_its_way.begin(), topic.on_its_way.end(), [&](const OnItsWay& o) { return o.seq == seq; });
   if (it == topic.on_its_way.end()) return;
-  const auto took = now - it->sent;
   topic.age_s = seconds(now - it->arrived);
-  if (topic.way == Way::picture && it->bytes > 0 && took.count() > 0)
-    link_bytes_per_s_ = static_cast<double>(it->bytes) / seconds(took);
-  judge(topic, it->sent, now);
   // What was sent before it has been drawn as well, or never will be.
   topic.on_its_way.erase(topic.on_its_way.begin(), it + 1);
 }

@@ -49,7 +49,8 @@ class Flow {
   static constexpr std::size_t kLeastCells = 16;
   static constexpr std::size_t kMostCells = 1024;
   static constexpr int kMostHalvings = 4;
-  static constexpr std::chrono::milliseconds kSlow{250};  // a picture that needs more is halved
+  static constexpr std::size_t kInLink = 16'384;          // bytes in the link beyond which only states are sent
+  static constexpr std::chrono::milliseconds kSlow{250};  // a picture that needs more of the link is halved
   static constexpr std::chrono::milliseconds kFast{60};   // after kFastEnough of these in a row it is doubled again
   static constexpr int kFastEnough = 20;
   static constexpr std::chrono::seconds kPatience{5};
@@ -63,10 +64,13 @@ class Flow {
 
   /// Takes it if the viewer watches its topic. `always`: what every viewer gets (console_state/1).
   void offer(const Offer& offer, bool always = false);
-  /// The next message for the link, which must be idle. Nothing: there is none, or the viewer does not answer.
-  std::optional<Sending> next(WallTime now);
+  /// The next message for the link, in which so many bytes are on their way. Nothing: there is none that may go, or the
+  /// viewer does not answer.
+  std::optional<Sending> next(WallTime now, std::size_t in_link = 0);
   /// That message was so many bytes.
   void sent(std::size_t bytes);
+  /// Called again and again: whether the link is empty. Tells how long messages need, however busy the viewer is.
+  void passed(WallTime now, bool empty);
   /// The viewer has drawn a message.
   void drawn(const std::string& topic, std::uint64_t seq, WallTime now);
   /// Something came from the viewer. True when it had been away: offer() all states anew.
@@ -79,8 +83,11 @@ class Flow {
  private:
   struct OnItsWay {
     std::uint64_t seq = 0;
-    WallTime sent;
     WallTime arrived;
+  };
+  struct InLink {
+    std::string topic;
+    WallTime began;
     std::size_t bytes = 0;
   };
   struct Topic {
@@ -90,7 +97,6 @@ class Flow {
     std::deque<OnItsWay> on_its_way;
     int halved = 0;
     int fast = 0;
-    WallTime halved_at;  // what was sent before says nothing of the new width
     std::int64_t sent = 0;
     std::int64_t lost = 0;
     std::int64_t reported = 0;
@@ -98,11 +104,13 @@ class Flow {
   };
 
   Topic* ready(Way way);
-  static void judge(Topic& topic, WallTime sent, WallTime now);
+  void judge(std::chrono::nanoseconds took);
 
   msg::ConsoleWatch wish_;
   std::map<std::string, Topic> topics_;
-  std::string last_topic_;  // to which sent() refers, and behind which the next turn begins
+  std::string last_topic_;  // behind which the next turn begins
+  std::optional<InLink> next_in_link_;  // to which sent() refers
+  std::optional<InLink> in_link_;       // the message whose passage is timed: the largest of those in the link
   WallTime heard_;
   WallTime reported_;
   bool was_away_ = false;

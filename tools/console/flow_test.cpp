@@ -107,14 +107,18 @@ TEST_CASE("topics of one way take turns") {
   CHECK(bench.next() == "a/view 1");
 }
 
-TEST_CASE("a picture that takes longer than a quarter of a second is halved, once for each that was sent so") {
+TEST_CASE("a picture that needs the link for longer than a quarter of a second is halved, however fast it is drawn") {
   Bench bench({"bow/view"});
   const auto cells_after = [&](milliseconds took) {
     static std::uint64_t seq = 0;
     bench.offer("bow/view", Way::picture, ++seq);
     const auto sending = bench.flow.next(bench.now);
     REQUIRE(sending);
+    bench.flow.sent(50'000);
     bench.now += took;
+    bench.flow.passed(bench.now, true);
+    bench.now += milliseconds(300);  // drawing takes its time, too, which is not the link's
+    bench.flow.answered(bench.now);
     bench.flow.drawn("bow/view", seq, bench.now);
     return sending->wish.cells;
   };
@@ -126,14 +130,27 @@ TEST_CASE("a picture that takes longer than a quarter of a second is halved, onc
   CHECK(bench.report("bow/view").halved == 1);
 }
 
-TEST_CASE("lines on a slow link are halved once although many answers are late") {
+TEST_CASE("lines that fill the link are halved while it never empties") {
   Bench bench({"side/view"});
-  for (std::uint64_t seq = 0; seq < 20; ++seq) bench.offer("side/view", Way::line, seq);
-  while (!bench.next().empty()) {
+  for (std::uint64_t seq = 0; seq < 60; ++seq) {
+    bench.offer("side/view", Way::line, seq);
+    bench.next();
+    bench.now += milliseconds(10);
+    bench.flow.passed(bench.now, false);
   }
-  bench.now += milliseconds(400);
-  for (std::uint64_t seq = 0; seq < 20; ++seq) bench.flow.drawn("side/view", seq, bench.now);
-  CHECK(bench.report("side/view").halved == 1);
+  CHECK(bench.report("side/view").halved == 2);  // after 0.26 s each
+}
+
+TEST_CASE("into a full link go states only") {
+  Bench bench({"bow/view", "nav/health"});
+  bench.offer("bow/view", Way::picture, 1);
+  bench.offer("nav/health", Way::state, 2);
+  const std::size_t full = Flow::kInLink + 1;
+  const auto sending = bench.flow.next(bench.now, full);
+  REQUIRE(sending);
+  CHECK(sending->offer.topic == "nav/health");
+  CHECK_FALSE(bench.flow.next(bench.now, full));
+  CHECK(bench.next() == "bow/view 1");
 }
 
 TEST_CASE("a viewer that does not answer for 5 s is sent nothing, and comes back to the newest") {

@@ -150,12 +150,13 @@ void Viewer::tick(WallTime now) {
     said_ = 0;
     if (!flow_.away(now)) offer_own(kFlowTopic, flow_.report(now), Way::state);
   }
+  flow_.passed(now, !busy_ && line_.in_link() == 0);
   push(now);
 }
 
 void Viewer::push(WallTime now) {
   while (!busy_ && power_) {
-    const auto sending = flow_.next(now);
+    const auto sending = flow_.next(now, line_.in_link());
     if (!sending) return;
     try {
       const bool own = sending->offer.topic.starts_with("console/");

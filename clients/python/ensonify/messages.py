@@ -11,6 +11,18 @@ from ensonify.typed import Message, Struct, array, fixed, list_of
 __all__ = [
     "Pace",
     "ClockHealth",
+    "ConsoleTopic",
+    "ConsoleItem",
+    "ConsoleState",
+    "ConsoleFlowTopic",
+    "ConsoleFlow",
+    "ConsoleEnter",
+    "ConsoleWatched",
+    "ConsoleWatch",
+    "ConsoleDrawn",
+    "ConsoleOpen",
+    "ConsoleCommand",
+    "ConsoleAnswer",
     "SectorDeclaration",
     "SettingDeclaration",
     "ChannelDeclaration",
@@ -56,6 +68,7 @@ __all__ = [
     "ObjectMesh",
     "ObjectRelease",
     "Chart",
+    "View",
 ]
 
 
@@ -102,6 +115,194 @@ class ClockHealth(Message):
     slips: int = 0
     slip_s: float = 0.0
     participants: list = list_of(Pace)
+
+
+@dataclass(eq=False)
+class ConsoleTopic(Struct):
+    """A topic that can be watched.
+
+    name: name of the topic; of a head's pictures HEAD/view
+    type: message type
+    publisher: process that publishes it
+    component: component of that process; empty: not known
+    """
+
+    name: str = ""
+    type: str = ""
+    publisher: str = ""
+    component: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleItem(Struct):
+    """Something that can be opened: a live run or a record.
+
+    id: name by which it is opened
+    kind: run or record
+    text: line that describes it
+    """
+
+    id: str = ""
+    kind: str = ""
+    text: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleState(Message):
+    """What a console shows, to its viewers when they enter and when it changes.
+
+    kind: kind of source: run, record, or empty where nothing is open
+    name: name of the run or record
+    launch: launch file of a run, as far as it is known
+    state: waiting, running, paused or ended
+    message: why, in one line
+    may_control: true where this viewer may pause, resume, set the rate and stop
+    exit_code [1]: exit code of a run that has ended and was started by this console
+    speed [1]: sim seconds per wall second that are asked for; 0: as fast as possible
+    topics: topics that can be watched
+    items: live runs and records that can be opened
+    launches: launch files of the installation, to be started from a shell
+    """
+
+    TYPE = "console_state/1"
+    kind: str = ""
+    name: str = ""
+    launch: str = ""
+    state: str = ""
+    message: str = ""
+    may_control: bool = False
+    exit_code: int = 0
+    speed: float = 0.0
+    topics: list = list_of(ConsoleTopic)
+    items: list = list_of(ConsoleItem)
+    launches: list = list_of(str)
+
+
+@dataclass(eq=False)
+class ConsoleFlowTopic(Struct):
+    """How one watched topic reaches a viewer.
+
+    topic: name of the topic
+    sent [1]: number of messages sent to this viewer
+    lost [1]: number of messages that it was not sent: of pictures those that a newer one replaced
+    halved [1]: number of times that its pictures are halved in width for the sake of the link
+    rate_hz [Hz]: messages sent per second of wall time since the report before
+    age_s [s]: wall time from the arrival of the newest message at the gateway until the viewer had drawn it
+    """
+
+    topic: str = ""
+    sent: int = 0
+    lost: int = 0
+    halved: int = 0
+    rate_hz: float = 0.0
+    age_s: float = 0.0
+
+
+@dataclass(eq=False)
+class ConsoleFlow(Message):
+    """How messages reach a viewer, once a second of wall time.
+
+    link_bytes_per_s [B/s]: rate of the link as the last pictures found it; 0: not known
+    waiting_bytes [1]: number of bytes that wait for this viewer
+    topics: topics that are watched
+    """
+
+    TYPE = "console_flow/1"
+    link_bytes_per_s: float = 0.0
+    waiting_bytes: int = 0
+    topics: list = list_of(ConsoleFlowTopic)
+
+
+@dataclass(eq=False)
+class ConsoleEnter(Message):
+    """A viewer's first message, within 2 s.
+
+    token: token of the URL to view or to control
+    """
+
+    TYPE = "console_enter/1"
+    token: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleWatched(Struct):
+    """A topic that a viewer watches.
+
+    topic: name of the topic
+    cells [1]: most cells of a picture over range, 16 to 1024
+    peak: true: cells show their strongest sample
+    spreading_db [dB]: S of the gain S log10(R) + 2 A R to add for display, 0 to 60
+    absorption_dbpm [dB/m]: absorption A of that gain, 0 to 1
+    """
+
+    topic: str = ""
+    cells: int = 1024
+    peak: bool = False
+    spreading_db: float = 0.0
+    absorption_dbpm: float = 0.0
+
+
+@dataclass(eq=False)
+class ConsoleWatch(Message):
+    """A viewer says all that it watches from now on.
+
+    hidden: true while nobody can see the page: nothing is sent to it
+    topics: topics, at most 64
+    """
+
+    TYPE = "console_watch/1"
+    hidden: bool = False
+    topics: list = list_of(ConsoleWatched)
+
+
+@dataclass(eq=False)
+class ConsoleDrawn(Message):
+    """A viewer has drawn a picture or a line and can take the next.
+
+    topic: name of the topic
+    seq [1]: seq of the message's envelope
+    """
+
+    TYPE = "console_drawn/1"
+    topic: str = ""
+    seq: int = 0
+
+
+@dataclass(eq=False)
+class ConsoleOpen(Message):
+    """A viewer asks for another run or record.
+
+    id: id of an item of console_state/1
+    """
+
+    TYPE = "console_open/1"
+    id: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleCommand(Message):
+    """A command to the run, from a viewer that came by the URL to control.
+
+    command: pause, resume, rate or stop
+    rate [1]: sim seconds per wall second for the command rate; 0: as fast as possible
+    """
+
+    TYPE = "console_command/1"
+    command: str = ""
+    rate: float = 1.0
+
+
+@dataclass(eq=False)
+class ConsoleAnswer(Message):
+    """Why something that a viewer asked for was not done.
+
+    request: type of the message that asked
+    error: cause and what is allowed
+    """
+
+    TYPE = "console_answer/1"
+    request: str = ""
+    error: str = ""
 
 
 @dataclass(eq=False)
@@ -1260,8 +1461,69 @@ class Chart(Message):
     height_m: np.ndarray = array("f4")
 
 
+@dataclass(eq=False)
+class View(Message):
+    """A ping as a picture for viewers: levels of beams over range in steps of half a decibel. In no record.
+
+    stamp_ns [ns]: time of transmission, sim time
+    ping [1]: ping number of this head, from 0
+    kind: component that made the ping, as in ping/1
+    beam_axis: axis of the head from which beam angles count: down or forward
+    level [1]: level of each cell (beam x cell), 0: nothing was received, n: level_floor_db + (n - 1) level_step_db
+    level_floor_db [dB re 1 uPa]: received level, rms, with the added gain, of the value 1
+    level_step_db [dB]: step between values
+    peak: true: a cell shows its strongest sample; false: the mean of their powers
+    first_range_m [m]: slant range of the near edge of the first cell
+    cell_m [m]: length of a cell in slant range
+    beam_angle_rad [rad]: receive beam axes in the head frame, from beam_axis, positive to starboard
+    sound_speed_mps [m/s]: sound speed by which times became ranges: the head's own
+    range_m [m]: range setting in force
+    frequency_hz [Hz]: centre frequency in force
+    pulse_length_s [s]: pulse length in force
+    source_level_db [dB re 1 uPa^2 at 1 m]: source level in force, on the axis, rms
+    gain_spreading_db [dB]: S of the head's own gain S log10(R) + 2 A R, for a display that wants it
+    gain_absorption_dbpm [dB/m]: absorption A of the head's own gain
+    added_spreading_db [dB]: S of the gain S log10(R) + 2 A R that was added for display, R in m and no nearer than 1 m
+    added_absorption_dbpm [dB/m]: absorption A of the gain that was added
+    position_enu_m [m]: estimated place of the head at transmission: east, north, up from chart datum
+    enu_from_head [1]: estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known
+    """
+
+    TYPE = "view/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    kind: str = ""
+    beam_axis: str = "down"
+    level: np.ndarray = array("u1")
+    level_floor_db: float = 0.0
+    level_step_db: float = 0.5
+    peak: bool = False
+    first_range_m: float = 0.0
+    cell_m: float = 0.0
+    beam_angle_rad: np.ndarray = array("f4")
+    sound_speed_mps: float = 0.0
+    range_m: float = 0.0
+    frequency_hz: float = 0.0
+    pulse_length_s: float = 0.0
+    source_level_db: float = 0.0
+    gain_spreading_db: float = 0.0
+    gain_absorption_dbpm: float = 0.0
+    added_spreading_db: float = 0.0
+    added_absorption_dbpm: float = 0.0
+    position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    enu_from_head: tuple = fixed(0.0, 0.0, 0.0, 0.0)
+
+
 TYPES = {cls.TYPE: cls for cls in (
     ClockHealth,
+    ConsoleState,
+    ConsoleFlow,
+    ConsoleEnter,
+    ConsoleWatch,
+    ConsoleDrawn,
+    ConsoleOpen,
+    ConsoleCommand,
+    ConsoleAnswer,
     HeadDeclaration,
     PagerDeclaration,
     Health,
@@ -1300,4 +1562,5 @@ TYPES = {cls.TYPE: cls for cls in (
     ObjectMesh,
     ObjectRelease,
     Chart,
+    View,
 )}

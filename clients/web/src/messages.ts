@@ -103,7 +103,7 @@ export interface ConsoleFlowTopic {
 export interface ConsoleFlow {
   /** rate of the link as the last pictures found it; 0: not known (B/s) */
   link_bytes_per_s: number;
-  /** size of what waits for this viewer (B) */
+  /** number of bytes that wait for this viewer (1) */
   waiting_bytes: number;
   /** topics that are watched */
   topics: ConsoleFlowTopic[];

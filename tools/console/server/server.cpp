@@ -1,5 +1,8 @@
 #include "tools/console/server/server.h"
 
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
+
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -85,6 +88,12 @@ class Socket : public Line, public std::enable_shared_from_this<Socket> {
       if (self->closing_) return self->close_now();
       if (self->visitor_) self->visitor_->sent();
     });
+  }
+
+  std::size_t in_link() override {
+    int bytes = 0;
+    const int descriptor = beast::get_lowest_layer(socket_).socket().native_handle();
+    return ::ioctl(descriptor, SIOCOUTQ, &bytes) == 0 && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
   }
 
   void close(const std::string& why) override {

@@ -20,6 +20,8 @@ class Line {
   virtual ~Line() = default;
   /// One binary message of these parts. The visitor's sent() follows; until then no other may be sent.
   virtual void send(const std::vector<msg::Buffer>& parts) = 0;
+  /// Bytes that were sent and that the other end has not acknowledged.
+  virtual std::size_t in_link() = 0;
   /// The reason is sent; the visitor is destroyed later.
   virtual void close(const std::string& why) = 0;
 };
