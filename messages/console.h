@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "messages/array.h"
 
 /// What a viewer in a browser and the console's gateway say to each other (docs/manual/console-wire.md). None of it
 /// travels on a run's own planes.
@@ -82,7 +85,8 @@ struct ConsoleFlowTopic {
   static void fields(Self& self, Visit&& visit) {
     visit("topic", "", "name of the topic", self.topic);
     visit("sent", "1", "number of messages sent to this viewer", self.sent);
-    visit("lost", "1", "number of messages that it was not sent: of pictures those that a newer one replaced", self.lost);
+    visit("lost", "1", "number of messages that it was not sent: of pictures those that a newer one replaced",
+          self.lost);
     visit("halved", "1", "number of times that its pictures are halved in width for the sake of the link", self.halved);
     visit("rate_hz", "Hz", "messages sent per second of wall time since the report before", self.rate_hz);
     visit("age_s", "s", "wall time from the arrival of the newest message at the gateway until the viewer had drawn it",
@@ -103,6 +107,59 @@ struct ConsoleFlow {
           self.link_bytes_per_s);
     visit("waiting_bytes", "1", "number of bytes that wait for this viewer", self.waiting_bytes);
     visit("topics", "", "topics that are watched", self.topics);
+  }
+};
+
+struct ConsoleCells {
+  static constexpr const char* kType = "console_cells/1";
+  static constexpr const char* kAbout =
+      "Cells of the grid that a console makes of all soundings: those that have changed, with all that fell into them.";
+  std::int64_t generation = 0;
+  std::int64_t since_ns = 0;
+  double cell_m = 0.0;
+  Array<std::int32_t> column;
+  Array<std::int32_t> row;
+  Array<std::uint32_t> count;
+  Array<float> mean_depth_m;
+  Array<float> shoalest_depth_m;
+  Array<float> sd_m;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the grid; with another one all earlier cells are void", self.generation);
+    visit("since_ns", "ns", "sim time of the first ping in the grid", self.since_ns);
+    visit("cell_m", "m", "side of a cell", self.cell_m);
+    visit("column", "1", "column of each cell: its western edge lies at column times cell_m", self.column);
+    visit("row", "1", "row of each cell: its southern edge lies at row times cell_m", self.row);
+    visit("count", "1", "number of soundings in each cell", self.count);
+    visit("mean_depth_m", "m", "mean depth of each cell, positive down from chart datum", self.mean_depth_m);
+    visit("shoalest_depth_m", "m", "least depth of each cell", self.shoalest_depth_m);
+    visit("sd_m", "m", "standard deviation of each cell's depths; NaN of fewer than two", self.sd_m);
+  }
+};
+
+struct ConsoleTrack {
+  static constexpr const char* kType = "console_track/1";
+  static constexpr const char* kAbout = "Track of a vehicle as it grows: new points, and where the vehicle is now.";
+  std::int64_t generation = 0;
+  std::string source;
+  bool truth = false;
+  std::int64_t stamp_ns = 0;
+  std::array<double, 3> position_enu_m{};
+  double heading_rad = 0.0;
+  std::int64_t first = 0;
+  Array<double> point_enu_m;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the track; with another one all earlier points are void", self.generation);
+    visit("source", "", "name of the topic that the track comes from", self.source);
+    visit("truth", "", "true for the true pose, false for an estimate", self.truth);
+    visit("stamp_ns", "ns", "sim time of the newest position", self.stamp_ns);
+    visit("position_enu_m", "m", "newest position: east, north, up from chart datum", self.position_enu_m);
+    visit("heading_rad", "rad", "newest heading, clockwise from grid north", self.heading_rad);
+    visit("first", "1", "index of the first of the new points", self.first);
+    visit("point_enu_m", "m", "new points (point x 2): east, north; half a metre apart or more", self.point_enu_m);
   }
 };
 

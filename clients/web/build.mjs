@@ -19,27 +19,26 @@ function install() {
   writeFileSync(done, lock);
 }
 
-// The licence of every package that is in the bundle.
-function licences() {
-  const { dependencies } = JSON.parse(readFileSync(join(here, "package.json"), "utf8"));
-  const { packages } = JSON.parse(readFileSync(join(here, "package-lock.json"), "utf8"));
-  const names = Object.entries(packages).filter(([path, entry]) => path && !entry.dev).map(([path]) => path);
-  if (names.length < Object.keys(dependencies).length) throw new Error("package-lock.json lacks packages of package.json");
-  return names.sort().map((path) => {
-    const folder = join(work, path);
-    const file = readdirSync(folder).find((name) => /^licen[cs]e/i.test(name));
-    if (!file) throw new Error(`${path} has no licence file`);
-    return `${path.replace(/^node_modules\//, "")} ${packages[path].version}\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`;
-  }).join("\n----\n\n");
-}
-
 function bundle() {
   const { buildSync } = createRequire(join(work, "package.json"))("esbuild");
   const made = buildSync({
     entryPoints: [join(here, "src/main.tsx")], nodePaths: [join(work, "node_modules")], bundle: true, minify: true, write: false,
     format: "esm", target: "es2022", jsx: "automatic", jsxImportSource: "preact", legalComments: "none", logLevel: "warning",
+    metafile: true,
   });
-  return made.outputFiles[0].text;
+  return { text: made.outputFiles[0].text, inputs: Object.entries(Object.values(made.metafile.outputs)[0].inputs).filter(([, { bytesInOutput }]) => bytesInOutput).map(([path]) => path) };
+}
+
+// The licence of every package that is in the bundle.
+function licences(inputs) {
+  const packages = new Set(inputs.map((path) => path.match(/node_modules\/((?:@[^/]+\/)?[^/]+)/)?.[1]).filter(Boolean));
+  return [...packages].sort().map((name) => {
+    const folder = join(work, "node_modules", name);
+    const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+    if (!file) throw new Error(`${name} is in the bundle and has no licence file`);
+    const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    return `${name} ${version}\n\n${readFileSync(join(folder, file), "utf8").trim()}\n`;
+  }).join("\n----\n\n");
 }
 
 function cppTable(files) {
@@ -55,9 +54,10 @@ function cppTable(files) {
 }
 
 install();
+const { text, inputs } = bundle();
 writeFileSync(out, cppTable([
   ["/", "text/html; charset=utf-8", readFileSync(join(here, "src/index.html"), "utf8")],
   ["/console.css", "text/css; charset=utf-8", readFileSync(join(here, "src/console.css"), "utf8")],
-  ["/console.js", "text/javascript; charset=utf-8", bundle()],
-  ["/licences.txt", "text/plain; charset=utf-8", licences()],
+  ["/console.js", "text/javascript; charset=utf-8", text],
+  ["/licences.txt", "text/plain; charset=utf-8", licences(inputs)],
 ]));

@@ -43,6 +43,28 @@ def sides(pings=20, samples=600, rate_hz=10.0):
             **synthetic_heads.applied())
 
 
+def slope_depth_m(east_m):
+    return 20.0 + 0.1 * east_m
+
+
+def survey(pings=60, rate_hz=20.0, beams=41):
+    """Soundings of a slope that falls to the east, on the middles of cells of 0.5 m, every fourth one half a metre shoaler; the estimate and
+    the true pose go north at 10 m/s, 3 m apart."""
+    for ping in range(pings):
+        stamp_ns, north_m = int(ping / rate_hz * 1e9), ping * 0.5 + 0.25
+        east_m = np.arange(beams) * 0.5 + 0.25
+        depth_m = slope_depth_m(east_m) - np.where(ping % 4 == 0, 0.5, 0.0)
+        places = np.stack([east_m, np.full(beams, north_m), -depth_m], axis=1)
+        yield "bow/soundings", ensonify.Soundings(stamp_ns=stamp_ns, ping=ping, valid=np.ones(beams, "u1"), position_enu_m=places,
+                                                  beam_angle_rad=np.zeros(beams, "f4"), travel_time_s=np.zeros(beams, "f4"))
+        # The same cells again, one sounding deeper.
+        yield "bow/soundings", ensonify.Soundings(stamp_ns=stamp_ns, ping=ping, valid=np.ones(beams, "u1"), position_enu_m=places - [0, 0, 0.25],
+                                                  beam_angle_rad=np.zeros(beams, "f4"), travel_time_s=np.zeros(beams, "f4"))
+        north = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
+        yield "nav/estimate", ensonify.Estimate(stamp_ns=stamp_ns, position_enu_m=(10.0, north_m, 0.0), enu_from_body=north)
+        yield "boat/pose", ensonify.Pose(stamp_ns=stamp_ns, position_enu_m=(13.0, north_m, 0.0), enu_from_body=north)
+
+
 def health(times_s=(0.0, 1.0)):
     for i, t_s in enumerate(times_s):
         yield "nav/health", ensonify.Health(stamp_ns=int(t_s * 1e9), state="degraded", message=f"<b>report</b> {i}",

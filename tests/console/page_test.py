@@ -9,7 +9,7 @@ import unittest
 import ensonify
 import numpy as np
 
-from console import SOURCE, ConsoleTest, fan, health, sides, write_record
+from console import SOURCE, ConsoleTest, fan, health, sides, slope_depth_m, survey, write_record
 
 CHROMIUM = shutil.which("chromium")
 try:
@@ -137,6 +137,34 @@ class Page(ConsoleTest):
         self.assertEqual(picture[3, middle], picture[23, middle])
         self.assertNotEqual(picture[3, middle], picture[13, middle])
         self.shot(page, "waterfall")
+        self.assertEqual(self.errors, [])
+
+    def test_the_chart_shows_each_cell_at_its_place(self):
+        at = self.console(write_record(self.folder / "survey.mcap", survey(pings=60)), "--rate", "3")
+        page = self.open(at.view)
+        page.wait_for_selector("text=4920 soundings in cells of 0.5 m", timeout=15_000)
+        time.sleep(0.5)
+        chart = page.locator(".map").bounding_box()
+        seen, checked = [], 0
+        for part_x in (0.41, 0.44, 0.47, 0.5, 0.53, 0.56, 0.59):
+            for part_y in (0.2, 0.35, 0.5, 0.65, 0.8):
+                page.mouse.move(chart["x"] + part_x * chart["width"], chart["y"] + part_y * chart["height"])
+                time.sleep(0.1)
+                line = page.locator(".pane:has(.map) .cursor").inner_text()
+                east_m, north_m = (float(line.split(word)[1].split()[0]) for word in ("east ", "north "))
+                seen.append((part_x * chart["width"], part_y * chart["height"], east_m, north_m))
+                if 0 < east_m < 20.4 and 0 < north_m < 29.9 and abs(north_m * 2 % 1 - 0.5) < 0.3 and abs(east_m * 2 % 1 - 0.5) < 0.3:
+                    column, row = int(east_m * 2), int(north_m * 2)
+                    want_m = slope_depth_m(0.5 * column + 0.25) - (0.5 if row % 4 == 0 else 0.0) + 0.125
+                    self.assertAlmostEqual(float(line.split("mean ")[1].split()[0]), want_m, delta=0.006, msg=line)
+                    self.assertIn("2 soundings", line)
+                    checked += 1
+        self.assertGreater(checked, 5)
+        # One scale, the same both ways, north up.
+        x, y, east_m, north_m = np.array(seen).T
+        metre_px = (y.max() - y.min()) / (north_m.max() - north_m.min())
+        np.testing.assert_allclose(x - x[0], (east_m - east_m[0]) * metre_px, atol=0.2 * metre_px)
+        np.testing.assert_allclose(y - y[0], -(north_m - north_m[0]) * metre_px, atol=0.2 * metre_px)
         self.assertEqual(self.errors, [])
 
     def test_gaps_are_drawn_and_counted(self):

@@ -6,7 +6,7 @@ import unittest
 import ensonify
 import numpy as np
 
-from console import STEP_M, ConsoleTest, fan, health, sides, write_record
+from console import STEP_M, ConsoleTest, fan, health, sides, slope_depth_m, survey, write_record
 from viewer import Viewer
 
 
@@ -90,6 +90,47 @@ class Record(ConsoleTest):
         viewer.say("console_command/1", command="rate", rate=20)
         viewer.until(lambda f: f.type == "console_state/1" and f.content["speed"] == 20)
         viewer.until(lambda f: f.type == "console_flow/1" and f.content["topics"][0]["rate_hz"] > 100)
+        viewer.close()
+
+    def cells_and_tracks(self, viewer, rows):
+        """All cells, by (column, row), and all points, once the last row of the survey is there."""
+        cells, points = {}, {}
+        while max((row for _, row in cells), default=-1) < rows - 1:
+            frame = viewer.next()
+            if frame.type == "console_cells/1":
+                c = frame.content
+                self.assertEqual(c["cell_m"], 0.5)
+                for i in range(len(c["column"])):
+                    cells[c["column"][i], c["row"][i]] = c["count"][i], c["mean_depth_m"][i], c["shoalest_depth_m"][i], c["sd_m"][i]
+            elif frame.type == "console_track/1":
+                grown = points.setdefault(frame.content["source"], [])
+                self.assertEqual(frame.content["first"], len(grown))
+                grown += [tuple(point) for point in frame.content["point_enu_m"]]
+                self.assertEqual(frame.content["truth"], frame.content["source"] == "boat/pose")
+                self.assertAlmostEqual(np.cos(frame.content["heading_rad"]), 1.0, 9)
+        return cells, points
+
+    def test_the_chart_has_all_soundings_in_cells_and_the_tracks(self):
+        at = self.console(write_record(self.folder / "survey.mcap", survey(pings=60)))
+        viewer = Viewer(at.view)
+        topics = [topic["name"] for topic in viewer.of("console_state/1").content["topics"]]
+        self.assertIn("cells", topics)
+        self.assertIn("track", topics)
+        viewer.watch("cells", "track")
+        cells, points = self.cells_and_tracks(viewer, 60)
+        self.assertEqual(len(cells), 41 * 60)
+        for (column, row), (count, mean_m, shoalest_m, sd_m) in cells.items():
+            shoal_m = slope_depth_m(0.5 * column + 0.25) - (0.5 if row % 4 == 0 else 0.0)
+            self.assertEqual(count, 2)
+            self.assertAlmostEqual(mean_m, shoal_m + 0.125, delta=1e-4)
+            self.assertAlmostEqual(shoalest_m, shoal_m, delta=1e-4)
+            self.assertAlmostEqual(sd_m, 0.25 / np.sqrt(2), delta=1e-4)
+        self.assertEqual(sorted(points), ["boat/pose", "nav/estimate"])
+        self.assertGreater(len(points["boat/pose"]), 50)
+        late = Viewer(at.view)
+        late.watch("cells", "track")
+        self.assertEqual(self.cells_and_tracks(late, 60)[0], cells)
+        late.close()
         viewer.close()
 
     def test_states_are_kept_for_who_comes_later(self):

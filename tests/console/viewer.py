@@ -7,7 +7,7 @@ import msgpack
 import numpy as np
 from websockets.sync.client import connect
 
-TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "mission_state/1", "pose/1")
+TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "console_cells/1", "console_track/1", "mission_state/1", "pose/1")
 DTYPES = {"u1": "<u1", "i2": "<i2", "u2": "<u2", "i4": "<i4", "u4": "<u4", "i8": "<i8", "f4": "<f4", "f8": "<f8"}
 
 
@@ -69,7 +69,7 @@ class Viewer:
     def next(self, patience_s=5.0):
         """The next frame; TimeoutError when none comes."""
         frame = Frame(self.socket.recv(timeout=patience_s))
-        if self.answers and frame.type in ("view/1", "console_flow/1"):
+        if self.answers and frame.type not in ("console_state/1", "console_answer/1"):
             self.say("console_drawn/1", topic=frame.topic, seq=frame.seq)
         return frame
 

@@ -6,20 +6,24 @@
 #include "messages/clock.h"
 #include "messages/health.h"
 #include "messages/motion.h"
+#include "messages/navigation.h"
+#include "messages/soundings.h"
 
 namespace ensonify::console {
 
 namespace {
 
 constexpr std::chrono::milliseconds kPollBudget{4};
-constexpr std::size_t kKept = 8;        // pictures that several viewers may share
-constexpr std::size_t kFanBeams = 3;    // a head with fewer beams draws lines
+constexpr std::size_t kKept = 8;      // pictures that several viewers may share
+constexpr std::size_t kFanBeams = 3;  // a head with fewer beams draws lines
 constexpr std::string_view kPing = "ping";
 constexpr std::string_view kView = "view";
 
 bool is_state(const std::string& type) {
   return type == msg::Health::kType || type == msg::ClockHealth::kType || type == msg::MissionState::kType;
 }
+
+bool is_track(const std::string& type) { return type == msg::Estimate::kType || type == msg::Pose::kType; }
 
 /// Number of beams of a ping, 0 where it says none.
 std::size_t beams_of(const msg::Packet& packet) {
@@ -33,7 +37,8 @@ std::size_t beams_of(const msg::Packet& packet) {
 
 std::string view_topic_of(const std::string& ping_topic) {
   const std::size_t slash = ping_topic.find('/');
-  if (slash == std::string::npos || ping_topic.compare(slash + 1, kPing.size(), kPing) != 0) return ping_topic + "/view";
+  if (slash == std::string::npos || ping_topic.compare(slash + 1, kPing.size(), kPing) != 0)
+    return ping_topic + "/view";
   return ping_topic.substr(0, slash + 1) + std::string(kView) + ping_topic.substr(slash + 1 + kPing.size());
 }
 
@@ -57,7 +62,9 @@ void Desk::ask_source() {
   std::set<std::string> wanted;
   for (const auto& [topic, type] : type_of_) {
     const std::string name = type == msg::Ping::kType ? view_topic_of(topic) : topic;
-    if (std::any_of(viewers_.begin(), viewers_.end(), [&](const Flow* flow) { return flow->watches(name); })) wanted.insert(topic);
+    const std::string made = type == msg::Soundings::kType ? kCellsTopic : is_track(type) ? kTrackTopic : "";
+    const auto wants = [&](const Flow* flow) { return flow->watches(name) || (!made.empty() && flow->watches(made)); };
+    if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
   }
   source_->want(wanted);
 }
@@ -71,6 +78,13 @@ void Desk::refresh() {
     topic.name = view_topic_of(topic.name);
     topic.type = msg::View::kType;
   }
+  bool cells = false, tracks = false;
+  for (const auto& [topic, type] : type_of_) {
+    cells = cells || type == msg::Soundings::kType;
+    tracks = tracks || is_track(type);
+  }
+  if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
+  if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
 
 bool Desk::poll(WallTime now) {
@@ -80,9 +94,9 @@ bool Desk::poll(WallTime now) {
     // A message that cannot be read is passed over; what follows is taken at the next poll.
   }
   const msg::ConsoleState fresh = source_->state();
-  const bool topics_changed = fresh.topics.size() != state_.topics.size();
-  if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message && fresh.speed == state_.speed &&
-      fresh.name == state_.name)
+  const bool topics_changed = fresh.topics.size() != type_of_.size();
+  if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
+      fresh.speed == state_.speed && fresh.name == state_.name)
     return false;
   refresh();
   if (topics_changed) ask_source();
@@ -103,6 +117,11 @@ void Desk::take(msg::Packet packet, WallTime now) {
   } else if (is_state(type->second)) {
     offer.way = Way::state;
   }
+  try {
+    survey_.take(type->second, packet);
+  } catch (const msg::DecodeError&) {
+    return;  // as above
+  }
   offer.packet = std::make_shared<const msg::Packet>(std::move(packet));
   if (offer.way != Way::line) newest_[offer.topic] = offer;
   for (Flow* flow : viewers_) flow->offer(offer);
@@ -112,9 +131,8 @@ msg::Packet Desk::message_of(const Sending& sending) {
   const msg::Packet& packet = *sending.offer.packet;
   const auto type = type_of_.find(packet.topic);
   if (type == type_of_.end() || type->second != msg::Ping::kType) return packet;
-  const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
-    return made.of == &packet && made.wish == sending.wish;
-  });
+  const auto known = std::find_if(made_.begin(), made_.end(),
+                                  [&](const Made& made) { return made.of == &packet && made.wish == sending.wish; });
   if (known != made_.end()) return known->packet;
 
   const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());

@@ -9,6 +9,7 @@
 
 #include "tools/console/flow.h"
 #include "tools/console/source.h"
+#include "tools/console/survey.h"
 
 namespace ensonify::console {
 
@@ -29,6 +30,8 @@ class Desk {
   bool poll(WallTime now);
 
   const msg::ConsoleState& state() const { return state_; }
+  /// What kCellsTopic and kTrackTopic are made of.
+  const Survey& survey() const { return survey_; }
   void command(const msg::ConsoleCommand& command) { source_->command(command); }
 
   /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
@@ -43,9 +46,9 @@ class Desk {
   std::list<Flow*> viewers_;
   WallTime left_;
   msg::ConsoleState state_;
-  std::map<std::string, std::string> type_of_;    // of the source's topics
-  std::map<std::string, Offer> newest_;           // of each topic with a state, for who comes later
-  std::map<std::uint32_t, std::uint32_t> epochs_;
+  std::map<std::string, std::string> type_of_;  // of the source's topics
+  std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
+  Survey survey_;
 
   struct Made {  // the last pictures, for several viewers of one size
     const msg::Packet* of = nullptr;
@@ -55,6 +58,10 @@ class Desk {
   };
   std::list<Made> made_;
 };
+
+/// Topics that a desk makes of several: console_cells/1, console_track/1.
+inline constexpr const char* kCellsTopic = "cells";
+inline constexpr const char* kTrackTopic = "track";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

@@ -14,17 +14,19 @@ Flow::Flow(WallTime now) : heard_(now), reported_(now) {}
 
 void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
   if (wish.topics.size() > kMostTopics)
-    throw msg::DecodeError("topics: " + std::to_string(wish.topics.size()) + " are too many; allowed: " +
-                           std::to_string(kMostTopics));
+    throw msg::DecodeError("topics: " + std::to_string(wish.topics.size()) +
+                           " are too many; allowed: " + std::to_string(kMostTopics));
   for (const msg::ConsoleWatched& watched : wish.topics) {
     const auto most = static_cast<std::int64_t>(kMostCells);
     if (watched.cells < static_cast<std::int64_t>(kLeastCells) || watched.cells > most)
       throw msg::DecodeError(watched.topic + ": cells " + std::to_string(watched.cells) + "; allowed: 16 to 1024");
-    if (!(watched.spreading_db >= 0.0 && watched.spreading_db <= 60.0 && watched.absorption_dbpm >= 0.0 && watched.absorption_dbpm <= 1.0))
+    if (!(watched.spreading_db >= 0.0 && watched.spreading_db <= 60.0 && watched.absorption_dbpm >= 0.0 &&
+          watched.absorption_dbpm <= 1.0))
       throw msg::DecodeError(watched.topic + ": a gain has 0 to 60 dB of spreading and 0 to 1 dB/m of absorption");
   }
   wish_ = wish;
-  std::erase_if(topics_, [&](const auto& entry) { return !watches(entry.first) && !entry.first.starts_with("console/"); });
+  std::erase_if(topics_,
+                [&](const auto& entry) { return !watches(entry.first) && !entry.first.starts_with("console/"); });
   for (const msg::ConsoleWatched& watched : wish_.topics) {
     Topic& topic = topics_[watched.topic];
     topic.wish = {static_cast<std::size_t>(watched.cells), watched.peak, watched.spreading_db, watched.absorption_dbpm};
@@ -33,7 +35,13 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
 }
 
 bool Flow::watches(const std::string& topic) const {
-  return std::any_of(wish_.topics.begin(), wish_.topics.end(), [&](const auto& watched) { return watched.topic == topic; });
+  return std::any_of(wish_.topics.begin(), wish_.topics.end(),
+                     [&](const auto& watched) { return watched.topic == topic; });
+}
+
+bool Flow::has_waiting(const std::string& topic) const {
+  const auto found = topics_.find(topic);
+  return found != topics_.end() && !found->second.waiting.empty();
 }
 
 void Flow::offer(const Offer& offer, bool always) {
@@ -127,7 +135,8 @@ void Flow::drawn(const std::string& name, std::uint64_t seq, WallTime now) {
   const auto found = topics_.find(name);
   if (found == topics_.end()) return;
   Topic& topic = found->second;
-  const auto it = std::find_if(topic.on_its_way.begin(), topic.on_its_way.end(), [&](const OnItsWay& o) { return o.seq == seq; });
+  const auto it =
+      std::find_if(topic.on_its_way.begin(), topic.on_its_way.end(), [&](const OnItsWay& o) { return o.seq == seq; });
   if (it == topic.on_its_way.end()) return;
   topic.age_s = seconds(now - it->arrived);
   // What was sent before it has been drawn as well, or never will be.
@@ -152,8 +161,8 @@ msg::ConsoleFlow Flow::report(WallTime now) {
   for (auto& [name, topic] : topics_) {
     for (const Offer& offer : topic.waiting) flow.waiting_bytes += static_cast<std::int64_t>(offer.packet->body.size());
     if (name.starts_with("console/")) continue;
-    flow.topics.push_back({name, topic.sent, topic.lost, topic.halved, static_cast<double>(topic.sent - topic.reported) / passed_s,
-                           topic.age_s});
+    flow.topics.push_back({name, topic.sent, topic.lost, topic.halved,
+                           static_cast<double>(topic.sent - topic.reported) / passed_s, topic.age_s});
     topic.reported = topic.sent;
   }
   return flow;

@@ -18,8 +18,8 @@ namespace ensonify::console {
 
 using WallTime = std::chrono::steady_clock::time_point;
 
-/// How a message reaches a viewer: the newest state of a topic, sent when it changes; lines (and values), all of them in
-/// order within a bound; pictures, of which one is on its way at a time and then the newest follows.
+/// How a message reaches a viewer: the newest state of a topic, sent when it changes; lines (and values), all of them
+/// in order within a bound; pictures, of which one is on its way at a time and then the newest follows.
 enum class Way { state, line, picture };
 
 /// Something that a viewer may want. The packet of a ping is a ping still: it becomes a picture when it is sent.
@@ -44,8 +44,8 @@ struct Sending {
 class Flow {
  public:
   static constexpr std::size_t kMostTopics = 64;
-  static constexpr std::size_t kMostLines = 512;   // of a topic that wait
-  static constexpr std::size_t kLinesAhead = 64;   // of a topic that were sent and not yet drawn
+  static constexpr std::size_t kMostLines = 512;  // of a topic that wait
+  static constexpr std::size_t kLinesAhead = 64;  // of a topic that were sent and not yet drawn
   static constexpr std::size_t kLeastCells = 16;
   static constexpr std::size_t kMostCells = 1024;
   static constexpr int kMostHalvings = 4;
@@ -61,6 +61,9 @@ class Flow {
   void watch(const msg::ConsoleWatch& wish, WallTime now);
   bool watches(const std::string& topic) const;
   const std::vector<msg::ConsoleWatched>& watched() const { return wish_.topics; }
+
+  /// Something of this topic has not been sent yet.
+  bool has_waiting(const std::string& topic) const;
 
   /// Takes it if the viewer watches its topic. `always`: what every viewer gets (console_state/1).
   void offer(const Offer& offer, bool always = false);
@@ -108,7 +111,7 @@ class Flow {
 
   msg::ConsoleWatch wish_;
   std::map<std::string, Topic> topics_;
-  std::string last_topic_;  // behind which the next turn begins
+  std::string last_topic_;              // behind which the next turn begins
   std::optional<InLink> next_in_link_;  // to which sent() refers
   std::optional<InLink> in_link_;       // the message whose passage is timed: the largest of those in the link
   WallTime heard_;

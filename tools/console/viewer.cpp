@@ -16,19 +16,22 @@ namespace {
 constexpr const char* kStateTopic = "console/state";
 constexpr const char* kFlowTopic = "console/flow";
 constexpr const char* kAnswerTopic = "console/answer";
+constexpr std::chrono::milliseconds kFetchEvery{250};  // of the chart's news
 constexpr std::string_view kCommands[] = {"pause", "resume", "rate", "stop"};
 
 template <msg::Message M>
 M read(const msg::Value& value) {
   M message;
   msg::from_value(value, message, "");
-  if (const std::string field = msg::not_finite(message); !field.empty()) throw msg::DecodeError(field + ": is no finite number");
+  if (const std::string field = msg::not_finite(message); !field.empty())
+    throw msg::DecodeError(field + ": is no finite number");
   return message;
 }
 
 }  // namespace
 
-Viewer::Viewer(Console& console, Line& line, WallTime now) : console_(console), line_(line), came_(now), flow_(now), second_(now) {}
+Viewer::Viewer(Console& console, Line& line, WallTime now)
+    : console_(console), line_(line), came_(now), flow_(now), second_(now) {}
 
 Viewer::~Viewer() {
   if (desk_) desk_->remove(flow_);
@@ -40,7 +43,8 @@ void Viewer::offer_own(const std::string& topic, const M& message, Way way) {
   msg::Packet packet{topic, {}, msg::encode(message), {}};
   packet.envelope.type_hash = msg::type_hash(M::kType);
   packet.envelope.seq = seq_++;
-  flow_.offer({topic, way, std::make_shared<const msg::Packet>(std::move(packet)), std::chrono::steady_clock::now()}, true);
+  flow_.offer({topic, way, std::make_shared<const msg::Packet>(std::move(packet)), std::chrono::steady_clock::now()},
+              true);
 }
 
 void Viewer::said(std::string_view text) {
@@ -74,6 +78,7 @@ void Viewer::take(const std::string& type, const std::string& text, WallTime now
     return sit_at(console_.first());
   }
   if (flow_.answered(now)) {
+    seen_ = {};
     send_state();
     if (desk_) desk_->settle(flow_, now);
   }
@@ -91,7 +96,10 @@ void Viewer::take(const std::string& type, const std::string& text, WallTime now
   }
   if (type == msg::ConsoleWatch::kType) {
     const auto wish = read<msg::ConsoleWatch>(value);
+    const bool cells = flow_.watches(kCellsTopic), track = flow_.watches(kTrackTopic);
     flow_.watch(wish, now);
+    if (flow_.watches(kCellsTopic) && !cells) seen_.cells = 0;
+    if (flow_.watches(kTrackTopic) && !track) seen_.points.clear();
     if (desk_) desk_->settle(flow_, now);
   } else if (type == msg::ConsoleOpen::kType) {
     sit_at(read<msg::ConsoleOpen>(value).id);
@@ -106,7 +114,8 @@ void Viewer::take(const std::string& type, const std::string& text, WallTime now
     if (!desk_) throw UserError("nothing is open");
     desk_->command(command);
   } else {
-    throw msg::DecodeError("type " + type + "; allowed: console_watch/1, console_drawn/1, console_open/1, console_command/1");
+    throw msg::DecodeError("type " + type +
+                           "; allowed: console_watch/1, console_drawn/1, console_open/1, console_command/1");
   }
 }
 
@@ -114,6 +123,7 @@ void Viewer::sit_at(const std::string& id) {
   const std::shared_ptr<Desk> desk = id.empty() ? nullptr : console_.desk(id);
   if (desk_) desk_->remove(flow_);
   desk_ = desk;
+  seen_ = {};
   if (desk_) {
     desk_->add(flow_);
     desk_->settle(flow_, std::chrono::steady_clock::now());
@@ -150,8 +160,21 @@ void Viewer::tick(WallTime now) {
     said_ = 0;
     if (!flow_.away(now)) offer_own(kFlowTopic, flow_.report(now), Way::state);
   }
+  if (now - fetched_ > kFetchEvery) {
+    fetched_ = now;
+    fetch_survey();
+  }
   flow_.passed(now, !busy_ && line_.in_link() == 0);
   push(now);
+}
+
+/// What is new of the chart to this viewer, once it has been sent what was new before.
+void Viewer::fetch_survey() {
+  if (!desk_ || flow_.away(std::chrono::steady_clock::now())) return;
+  if (flow_.watches(kCellsTopic) && !flow_.has_waiting(kCellsTopic))
+    if (const auto cells = desk_->survey().new_cells(seen_)) offer_own(kCellsTopic, *cells, Way::line);
+  if (flow_.watches(kTrackTopic) && !flow_.has_waiting(kTrackTopic))
+    for (const msg::ConsoleTrack& track : desk_->survey().new_tracks(seen_)) offer_own(kTrackTopic, track, Way::line);
 }
 
 void Viewer::push(WallTime now) {
@@ -159,8 +182,7 @@ void Viewer::push(WallTime now) {
     const auto sending = flow_.next(now, line_.in_link());
     if (!sending) return;
     try {
-      const bool own = sending->offer.topic.starts_with("console/");
-      const auto parts = frame_of(own || !desk_ ? *sending->offer.packet : desk_->message_of(*sending));
+      const auto parts = frame_of(desk_ ? desk_->message_of(*sending) : *sending->offer.packet);
       flow_.sent(size_of(parts));
       busy_ = true;
       line_.send(parts);

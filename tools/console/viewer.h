@@ -7,6 +7,7 @@
 #include "tools/console/doors.h"
 #include "tools/console/flow.h"
 #include "tools/console/server/server.h"
+#include "tools/console/survey.h"
 
 namespace ensonify::console {
 
@@ -36,6 +37,7 @@ class Viewer : public Visitor {
   void sit_at(const std::string& id);
   void answer(const std::string& request, const std::string& error);
   void push(WallTime now);
+  void fetch_survey();
   template <msg::Message M>
   void offer_own(const std::string& topic, const M& message, Way way);
 
@@ -45,6 +47,8 @@ class Viewer : public Visitor {
   std::optional<Power> power_;
   std::shared_ptr<Desk> desk_;
   Flow flow_;
+  Survey::Seen seen_;
+  WallTime fetched_;
   bool busy_ = false;  // a message is on its way into the socket
   std::uint64_t seq_ = 0;
   WallTime second_;

@@ -16,6 +16,8 @@ __all__ = [
     "ConsoleState",
     "ConsoleFlowTopic",
     "ConsoleFlow",
+    "ConsoleCells",
+    "ConsoleTrack",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -211,6 +213,58 @@ class ConsoleFlow(Message):
     link_bytes_per_s: float = 0.0
     waiting_bytes: int = 0
     topics: list = list_of(ConsoleFlowTopic)
+
+
+@dataclass(eq=False)
+class ConsoleCells(Message):
+    """Cells of the grid that a console makes of all soundings: those that have changed, with all that fell into them.
+
+    generation [1]: number of the grid; with another one all earlier cells are void
+    since_ns [ns]: sim time of the first ping in the grid
+    cell_m [m]: side of a cell
+    column [1]: column of each cell: its western edge lies at column times cell_m
+    row [1]: row of each cell: its southern edge lies at row times cell_m
+    count [1]: number of soundings in each cell
+    mean_depth_m [m]: mean depth of each cell, positive down from chart datum
+    shoalest_depth_m [m]: least depth of each cell
+    sd_m [m]: standard deviation of each cell's depths; NaN of fewer than two
+    """
+
+    TYPE = "console_cells/1"
+    generation: int = 0
+    since_ns: int = 0
+    cell_m: float = 0.0
+    column: np.ndarray = array("i4")
+    row: np.ndarray = array("i4")
+    count: np.ndarray = array("u4")
+    mean_depth_m: np.ndarray = array("f4")
+    shoalest_depth_m: np.ndarray = array("f4")
+    sd_m: np.ndarray = array("f4")
+
+
+@dataclass(eq=False)
+class ConsoleTrack(Message):
+    """Track of a vehicle as it grows: new points, and where the vehicle is now.
+
+    generation [1]: number of the track; with another one all earlier points are void
+    source: name of the topic that the track comes from
+    truth: true for the true pose, false for an estimate
+    stamp_ns [ns]: sim time of the newest position
+    position_enu_m [m]: newest position: east, north, up from chart datum
+    heading_rad [rad]: newest heading, clockwise from grid north
+    first [1]: index of the first of the new points
+    point_enu_m [m]: new points (point x 2): east, north; half a metre apart or more
+    """
+
+    TYPE = "console_track/1"
+    generation: int = 0
+    source: str = ""
+    truth: bool = False
+    stamp_ns: int = 0
+    position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    heading_rad: float = 0.0
+    first: int = 0
+    point_enu_m: np.ndarray = array("f8")
 
 
 @dataclass(eq=False)
@@ -1518,6 +1572,8 @@ TYPES = {cls.TYPE: cls for cls in (
     ClockHealth,
     ConsoleState,
     ConsoleFlow,
+    ConsoleCells,
+    ConsoleTrack,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

@@ -1,6 +1,7 @@
 // The console's page.
 import { render } from "preact";
-import { answer, begin, connected, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { answer, begin, connected, hasChart, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { ChartPane } from "./chart";
 import { Head, HealthPane } from "./panes";
 
 const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
@@ -34,7 +35,7 @@ function Bar() {
       {answer.value && <span class="error" role="alert">{answer.value}</span>}
       {!connected.value && <span class="error" role="alert">no connection: {trouble.value}</span>}
       <span class="right">
-        {viewTopics().map(({ name }) => (
+        {names().map((name) => (
           <label key={name}><input type="checkbox" checked={panes().includes(name)} onChange={() => toggle(name)} /> {name}</label>
         ))}
         {s.items.length > 0 && (
@@ -48,7 +49,9 @@ function Bar() {
   );
 }
 
-const panes = () => shown.value ?? viewTopics().slice(0, 3).map((topic) => topic.name);
+const CHART = "chart";
+const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
+const panes = () => shown.value ?? [...viewTopics().slice(0, 2).map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
 
 function toggle(name: string) {
   const now = panes();
@@ -77,7 +80,7 @@ function Page() {
     <>
       <Bar />
       <div class={`panes n${panes().length}`}>
-        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane"><Head topic={topic} /></section>)}
+        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{topic === CHART ? <ChartPane /> : <Head topic={topic} />}</section>)}
         <section class="pane health"><HealthPane /></section>
       </div>
     </>

@@ -109,6 +109,46 @@ export interface ConsoleFlow {
   topics: ConsoleFlowTopic[];
 }
 
+export interface ConsoleCells {
+  /** number of the grid; with another one all earlier cells are void (1) */
+  generation: number;
+  /** sim time of the first ping in the grid (ns) */
+  since_ns: number;
+  /** side of a cell (m) */
+  cell_m: number;
+  /** column of each cell: its western edge lies at column times cell_m (1) */
+  column: Numbers<Int32Array>;
+  /** row of each cell: its southern edge lies at row times cell_m (1) */
+  row: Numbers<Int32Array>;
+  /** number of soundings in each cell (1) */
+  count: Numbers<Uint32Array>;
+  /** mean depth of each cell, positive down from chart datum (m) */
+  mean_depth_m: Numbers<Float32Array>;
+  /** least depth of each cell (m) */
+  shoalest_depth_m: Numbers<Float32Array>;
+  /** standard deviation of each cell's depths; NaN of fewer than two (m) */
+  sd_m: Numbers<Float32Array>;
+}
+
+export interface ConsoleTrack {
+  /** number of the track; with another one all earlier points are void (1) */
+  generation: number;
+  /** name of the topic that the track comes from */
+  source: string;
+  /** true for the true pose, false for an estimate */
+  truth: boolean;
+  /** sim time of the newest position (ns) */
+  stamp_ns: number;
+  /** newest position: east, north, up from chart datum (m) */
+  position_enu_m: number[];
+  /** newest heading, clockwise from grid north (rad) */
+  heading_rad: number;
+  /** index of the first of the new points (1) */
+  first: number;
+  /** new points (point x 2): east, north; half a metre apart or more (m) */
+  point_enu_m: Numbers<Float64Array>;
+}
+
 export interface ConsoleEnter {
   /** token of the URL to view or to control */
   token: string;
@@ -1105,6 +1145,8 @@ export const TYPES: Record<string, string> = {
   "8cd8dfcad82498f0": "clock_health/1",
   "a5052c0022b98144": "console_state/1",
   "01e9c5843cad59a7": "console_flow/1",
+  "d8f4b048f8b65b04": "console_cells/1",
+  "05273cc6f0f7bf56": "console_track/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",

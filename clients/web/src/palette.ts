@@ -5,6 +5,7 @@ type Colour = [number, number, number];
 const POINTS: Record<string, Colour[]> = {
   // matplotlib's inferno at every eighth, of monotonic lightness.
   inferno: [[0, 0, 4], [31, 12, 72], [85, 15, 109], [136, 34, 106], [186, 54, 85], [227, 89, 51], [249, 140, 10], [249, 201, 50], [252, 255, 164]],
+  depth: [[16, 16, 64], [27, 54, 120], [35, 98, 148], [54, 142, 151], [110, 178, 134], [190, 200, 110], [246, 214, 120], [255, 240, 200]],
   // As `ensonify plot waterfall`.
   copper: [[0, 0, 0], [58, 29, 8], [138, 75, 18], [207, 138, 44], [243, 200, 112], [255, 246, 220]],
 };
@@ -21,6 +22,8 @@ function ramp(name: string): Uint32Array {
 }
 
 export const RAMPS: Record<string, Uint32Array> = { inferno: ramp("inferno"), copper: ramp("copper") };
+/** Depths from shoal (warm and light) to deep (cold and dark), of monotonic lightness. */
+export const DEPTHS: Uint32Array = ramp("depth").reverse();
 export const EMPTY = 0xff2a2a2a; // where nothing was received, or no beam pointed
 export const GAP = 0xff705030; // where lines are missing
 

@@ -14,7 +14,7 @@ function Flow({ topic }: { topic: string }) {
   const f = flow.value[topic];
   if (!f) return null;
   return (
-    <span class="flow" data-lost={f.lost} data-age={f.age_s}>
+    <span class="flow" data-sent={f.sent} data-lost={f.lost} data-age={f.age_s}>
       {fixed(f.rate_hz)} /s · {Math.round(f.age_s * 1000)} ms old · {f.lost} lost{f.halved > 0 && ` · width 1/${2 ** f.halved} for the link`}
     </span>
   );

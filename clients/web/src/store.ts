@@ -1,6 +1,6 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAnswer, ConsoleFlow, ConsoleFlowTopic, ConsoleState, ConsoleTopic, Health, View } from "./messages";
+import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, Health, View } from "./messages";
 import { Frame, takeToken, Wire } from "./wire";
 
 export const connected = signal(false);
@@ -32,15 +32,33 @@ const due = new Map<string, number>(); // seq of the newest message of each topi
 let wire: Wire | null = null;
 let frameAsked = false;
 
+/** Whether soundings or positions are published. */
+export const hasChart = () => (state.value?.topics ?? []).some((topic) => CHART.includes(topic.name));
+const CHART = ["cells", "track"];
+let chart: ((news: ConsoleCells | ConsoleTrack) => void) | null = null;
+
+/** Opens the chart's topics for a pane; the result closes them. */
+export function watchChart(take: (news: ConsoleCells | ConsoleTrack) => void): () => void {
+  chart = take;
+  watchAll();
+  return () => {
+    if (chart !== take) return;
+    chart = null;
+    watchAll();
+  };
+}
+
 export function viewTopics(): ConsoleTopic[] {
   return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
 }
 
+const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 });
+
 function watchAll() {
   const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
-  const states = small.slice(0, 64 - heads.length).map(({ name }) => ({ topic: name, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 }));
-  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...states] });
+  const states = small.slice(0, 62 - heads.length).map(({ name }) => plain(name));
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...(chart ? CHART.map(plain) : []), ...states] });
 }
 
 /** Opens a topic for a pane; the result closes it. */
@@ -80,6 +98,9 @@ function take(frame: Frame) {
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
+  } else if (frame.type === "console_cells/1" || frame.type === "console_track/1") {
+    chart?.(frame.content as ConsoleCells | ConsoleTrack);
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
   } else if (frame.type === "clock_health/1") {
