@@ -23,7 +23,7 @@ struct ConsoleTopic {
     visit("name", "", "name of the topic; of a head's pictures HEAD/view", self.name);
     visit("type", "", "message type", self.type);
     visit("publisher", "", "process that publishes it", self.publisher);
-    visit("component", "", "component of that process; empty: not known", self.component);
+    visit("component", "", "component of the publisher; empty: not known", self.component);
   }
 };
 
@@ -186,9 +186,9 @@ struct ConsoleWatched {
   static void fields(Self& self, Visit&& visit) {
     visit("topic", "", "name of the topic", self.topic);
     visit("cells", "1", "most cells of a picture over range, 16 to 1024", self.cells);
-    visit("peak", "", "true: cells show their strongest sample", self.peak);
+    visit("peak", "", "choice of a cell's level: true its strongest sample", self.peak);
     visit("spreading_db", "dB", "S of the gain S log10(R) + 2 A R to add for display, 0 to 60", self.spreading_db);
-    visit("absorption_dbpm", "dB/m", "absorption A of that gain, 0 to 1", self.absorption_dbpm);
+    visit("absorption_dbpm", "dB/m", "absorption A of the gain to add, 0 to 1", self.absorption_dbpm);
   }
 };
 

@@ -44,9 +44,10 @@ struct View {
     visit("level", "1",
           "level of each cell (beam x cell), 0: nothing was received, n: level_floor_db + (n - 1) level_step_db",
           self.level);
-    visit("level_floor_db", "dB re 1 uPa", "received level, rms, with the added gain, of the value 1", self.level_floor_db);
+    visit("level_floor_db", "dB re 1 uPa", "received level, rms, with the added gain, of the value 1",
+          self.level_floor_db);
     visit("level_step_db", "dB", "step between values", self.level_step_db);
-    visit("peak", "", "true: a cell shows its strongest sample; false: the mean of their powers", self.peak);
+    visit("peak", "", "choice of a cell's level: true its strongest sample, false the mean of their powers", self.peak);
     visit("first_range_m", "m", "slant range of the near edge of the first cell", self.first_range_m);
     visit("cell_m", "m", "length of a cell in slant range", self.cell_m);
     visit("beam_angle_rad", "rad", "receive beam axes in the head frame, from beam_axis, positive to starboard",
@@ -66,7 +67,8 @@ struct View {
     visit("position_enu_m", "m", "estimated place of the head at transmission: east, north, up from chart datum",
           self.position_enu_m);
     visit("enu_from_head", "1",
-          "estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known", self.enu_from_head);
+          "estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known",
+          self.enu_from_head);
   }
 };
 

@@ -126,7 +126,7 @@ class ConsoleTopic(Struct):
     name: name of the topic; of a head's pictures HEAD/view
     type: message type
     publisher: process that publishes it
-    component: component of that process; empty: not known
+    component: component of the publisher; empty: not known
     """
 
     name: str = ""
@@ -284,9 +284,9 @@ class ConsoleWatched(Struct):
 
     topic: name of the topic
     cells [1]: most cells of a picture over range, 16 to 1024
-    peak: true: cells show their strongest sample
+    peak: choice of a cell's level: true its strongest sample
     spreading_db [dB]: S of the gain S log10(R) + 2 A R to add for display, 0 to 60
-    absorption_dbpm [dB/m]: absorption A of that gain, 0 to 1
+    absorption_dbpm [dB/m]: absorption A of the gain to add, 0 to 1
     """
 
     topic: str = ""
@@ -1526,7 +1526,7 @@ class View(Message):
     level [1]: level of each cell (beam x cell), 0: nothing was received, n: level_floor_db + (n - 1) level_step_db
     level_floor_db [dB re 1 uPa]: received level, rms, with the added gain, of the value 1
     level_step_db [dB]: step between values
-    peak: true: a cell shows its strongest sample; false: the mean of their powers
+    peak: choice of a cell's level: true its strongest sample, false the mean of their powers
     first_range_m [m]: slant range of the near edge of the first cell
     cell_m [m]: length of a cell in slant range
     beam_angle_rad [rad]: receive beam axes in the head frame, from beam_axis, positive to starboard

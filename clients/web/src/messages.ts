@@ -47,7 +47,7 @@ export interface ConsoleTopic {
   type: string;
   /** process that publishes it */
   publisher: string;
-  /** component of that process; empty: not known */
+  /** component of the publisher; empty: not known */
   component: string;
 }
 
@@ -159,11 +159,11 @@ export interface ConsoleWatched {
   topic: string;
   /** most cells of a picture over range, 16 to 1024 (1) */
   cells: number;
-  /** true: cells show their strongest sample */
+  /** choice of a cell's level: true its strongest sample */
   peak: boolean;
   /** S of the gain S log10(R) + 2 A R to add for display, 0 to 60 (dB) */
   spreading_db: number;
-  /** absorption A of that gain, 0 to 1 (dB/m) */
+  /** absorption A of the gain to add, 0 to 1 (dB/m) */
   absorption_dbpm: number;
 }
 
@@ -1108,7 +1108,7 @@ export interface View {
   level_floor_db: number;
   /** step between values (dB) */
   level_step_db: number;
-  /** true: a cell shows its strongest sample; false: the mean of their powers */
+  /** choice of a cell's level: true its strongest sample, false the mean of their powers */
   peak: boolean;
   /** slant range of the near edge of the first cell (m) */
   first_range_m: number;
