@@ -34,6 +34,9 @@ struct View {
   double added_absorption_dbpm = 0.0;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_head{};
+  Array<float> find_angle_rad;
+  Array<float> find_range_m;
+  Array<std::uint8_t> find_kind;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -69,6 +72,11 @@ struct View {
     visit("enu_from_head", "1",
           "estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known",
           self.enu_from_head);
+    visit("find_angle_rad", "rad", "beam axes of the ping's valid detections; empty: none are known",
+          self.find_angle_rad);
+    visit("find_range_m", "m", "slant range of each of these detections, by the head's own sound speed",
+          self.find_range_m);
+    visit("find_kind", "1", "kind of each of these detections: 1 by amplitude, 2 by phase, 0 neither", self.find_kind);
   }
 };
 

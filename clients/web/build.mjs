@@ -5,6 +5,7 @@ import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, writeFi
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const [work, out] = process.argv.slice(2).map((path) => resolve(path));
@@ -42,12 +43,13 @@ function licences(inputs) {
 }
 
 function cppTable(files) {
-  const arrays = files.map(([, , text], index) => {
-    const bytes = [...Buffer.from(text, "utf8")];
-    return `constexpr unsigned char kFile${index}[] = {${bytes.join(",")}};`;
+  const array = (name, bytes) => `constexpr unsigned char ${name}[] = {${[...bytes].join(",")}};`;
+  const view = (name) => `{reinterpret_cast<const char*>(${name}), sizeof ${name}}`;
+  const arrays = files.flatMap(([, , text], i) => {
+    const bytes = Buffer.from(text, "utf8");
+    return [array(`kFile${i}`, bytes), array(`kCompressed${i}`, gzipSync(bytes, { level: 9 }))];
   });
-  const rows = files.map(([path, type], index) =>
-    `      {"${path}", "${type}", {reinterpret_cast<const char*>(kFile${index}), sizeof kFile${index}}},`);
+  const rows = files.map(([path, type], i) => `      {"${path}", "${type}", ${view(`kFile${i}`)}, ${view(`kCompressed${i}`)}},`);
   return ["// Made by clients/web/build.mjs.", '#include "tools/console/page_files.h"', "", "namespace ensonify::console {", "namespace {",
     ...arrays, "}  // namespace", "", "std::vector<PageFile> page_files() {", "  return {", ...rows, "  };", "}", "",
     "}  // namespace ensonify::console", ""].join("\n");

@@ -23,7 +23,8 @@ void require_picture(const msg::Ping& ping) {
   if (!linear && ping.amplitude_count.empty()) throw NoPicture("no samples were published with this ping");
   const auto& shape = linear ? ping.amplitude_upa.shape() : ping.amplitude_count.shape();
   if (shape.size() != 2 || shape[0] != ping.beam_angle_rad.size())
-    throw NoPicture("amplitudes (" + (shape.size() == 2 ? shape_text(shape[0], shape[1]) : std::string("not beam x sample")) +
+    throw NoPicture("amplitudes (" +
+                    (shape.size() == 2 ? shape_text(shape[0], shape[1]) : std::string("not beam x sample")) +
                     ") do not fit " + std::to_string(ping.beam_angle_rad.size()) + " beam angles");
   const double step_m = ping.sample_period_s * ping.applied.sound_speed_mps;
   if (!(step_m > 0.0) || !std::isfinite(step_m) || !std::isfinite(ping.first_sample_s))
@@ -41,7 +42,8 @@ class Power {
       const double held_m = std::max(time_s * own.sound_speed_mps / 2.0, kNearestGain_m);
       double gain_db = wish.spreading_db * std::log10(held_m) + 2.0 * wish.absorption_dbpm * held_m;
       if (!linear)
-        gain_db -= own.gain_spreading_db * std::log10(held_m) + 2.0 * own.gain_absorption_dbpm * held_m + own.gain_offset_db;
+        gain_db -=
+            own.gain_spreading_db * std::log10(held_m) + 2.0 * own.gain_absorption_dbpm * held_m + own.gain_offset_db;
       const double unit_upa = linear ? 1.0 : ping.count_upa;
       factor_[i] = static_cast<float>(unit_upa * unit_upa * std::pow(10.0, gain_db / 10.0));
     }
@@ -134,6 +136,25 @@ msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const Pic
     view.level[i] = static_cast<std::uint8_t>(std::clamp(value, 1.0F, 255.0F));
   }
   return view;
+}
+
+void add_finds(msg::View& view, const msg::Soundings& soundings) {
+  const std::size_t count = soundings.valid.size();
+  if (soundings.beam_angle_rad.size() != count || soundings.travel_time_s.size() != count) return;
+  const bool has_kind = soundings.kind.size() == count;
+  const auto half_speed_mps = static_cast<float>(soundings.applied.sound_speed_mps / 2.0);
+  std::vector<float> angle, range;
+  std::vector<std::uint8_t> kind;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float range_m = soundings.travel_time_s[i] * half_speed_mps;
+    if (soundings.valid[i] != 1 || !std::isfinite(range_m) || !std::isfinite(soundings.beam_angle_rad[i])) continue;
+    angle.push_back(soundings.beam_angle_rad[i]);
+    range.push_back(range_m);
+    kind.push_back(has_kind ? soundings.kind[i] : 1);
+  }
+  view.find_angle_rad = msg::Array<float>::of(std::move(angle));
+  view.find_range_m = msg::Array<float>::of(std::move(range));
+  view.find_kind = msg::Array<std::uint8_t>::of(std::move(kind));
 }
 
 }  // namespace ensonify

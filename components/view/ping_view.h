@@ -5,6 +5,7 @@
 #include <string>
 
 #include "messages/sonar.h"
+#include "messages/soundings.h"
 #include "messages/view.h"
 
 namespace ensonify {
@@ -25,10 +26,13 @@ struct PictureWish {
 
 /// A ping as a picture (view/1). As many neighbouring samples make a cell as leave at most `wish.cells` cells; the last
 /// cell may hold fewer. Levels are received rms levels, with the gain that is wished and no other, in dB re 1 uPa,
-/// rounded to half a decibel (`ensonify plot` draws the same numbers). The floor is the multiple of 10 dB below which the picture's
-/// highest level stands by 117 to 127 dB; what is weaker has the floor's level.
+/// rounded to half a decibel (`ensonify plot` draws the same numbers). The floor is the multiple of 10 dB below which
+/// the picture's highest level stands by 117 to 127 dB; what is weaker has the floor's level.
 ///
 /// Throws NoPicture where there are no samples, where shapes do not fit, or where samples have no range.
 msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const PictureWish& wish);
+
+/// Adds the valid detections of the same ping.
+void add_finds(msg::View& view, const msg::Soundings& soundings);
 
 }  // namespace ensonify

@@ -120,3 +120,19 @@ TEST_CASE("a ping without picture says why") {
   ping.amplitude_upa = {};
   CHECK_THROWS_WITH(view_of(ping, "down", {}), "no samples were published with this ping");
 }
+
+TEST_CASE("valid detections stand at their ranges") {
+  msg::Soundings soundings;
+  soundings.valid = msg::Array<std::uint8_t>::of({1, 0, 1, 1});
+  soundings.beam_angle_rad = msg::Array<float>::of({-0.5F, 0.0F, 0.25F, 0.5F});
+  soundings.travel_time_s = msg::Array<float>::of({0.02F, 0.02F, 0.04F, std::numeric_limits<float>::quiet_NaN()});
+  soundings.kind = msg::Array<std::uint8_t>::of({1, 0, 2, 1});
+  soundings.applied.sound_speed_mps = kSpeed_mps;
+  msg::View view;
+  add_finds(view, soundings);
+  REQUIRE(view.find_range_m.size() == 2);
+  CHECK_THAT(static_cast<double>(view.find_range_m[0]), WithinAbs(15.0, 1e-5));
+  CHECK_THAT(static_cast<double>(view.find_range_m[1]), WithinAbs(30.0, 1e-5));
+  CHECK(view.find_angle_rad[1] == 0.25F);
+  CHECK(view.find_kind[1] == 2);
+}

@@ -1,4 +1,5 @@
 """Who may enter a console, and what it does with those who should not."""
+import gzip
 import http.client
 import json
 import socket
@@ -54,6 +55,15 @@ class Doors(ConsoleTest):
             self.assertEqual(response.status, 200, path)
             self.assertGreater(len(text), 500)
         self.assertIn("preact", self.request("/licences.txt")[1])
+        connection = http.client.HTTPConnection("127.0.0.1", self.at.port, timeout=5)
+        loaded = 0
+        for path in ("/", "/console.js", "/console.css"):
+            connection.request("GET", path, headers={"Accept-Encoding": "gzip, deflate, br"})
+            packed = connection.getresponse().read()
+            self.assertEqual(gzip.decompress(packed).decode(), self.request(path)[1])
+            loaded += len(packed)
+        connection.close()
+        self.assertLess(loaded, 300_000)
         for path in ("/../etc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd", "/etc/passwd", f"/{self.record}", "/console.js/.."):
             self.assertIn(self.request(path)[0].status, (400, 404), path)
 

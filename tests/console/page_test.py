@@ -110,6 +110,29 @@ class Page(ConsoleTest):
     def test_a_target_lies_at_its_place_in_the_fan_with_its_level(self):
         self.check_target("down")
 
+    def test_detections_are_dots_where_their_range_and_angle_say(self):
+        def with_finds():
+            for topic, ping in fan(pings=10, samples=500, step_m=0.12):
+                yield topic, ping
+                yield "bow/soundings", ensonify.Soundings(
+                    stamp_ns=ping.stamp_ns, ping=ping.ping, valid=np.array([1, 0], "u1"), beam_angle_rad=np.array([0.5, -0.5], "f4"),
+                    travel_time_s=np.array([2 * 30 / 1500, 2 * 30 / 1500], "f4"), kind=np.array([2, 1], "u1"), sound_speed_mps=1500.0)
+
+        at = self.console(write_record(self.folder / "finds.mcap", with_finds()), "--loop")
+        page = self.open(at.view)
+        page.wait_for_selector("text=detections:", timeout=15_000)
+        picture = self.picture(page, "bow/view")
+        rows, columns = np.nonzero(picture == 0xFFA4D67F)
+        self.assertEqual(len(rows), 9)
+        height, width = picture.shape
+        edge_rad = math.pi / 3 + math.pi / 180
+        metre_px, left_m = self.fan_scale(width, height, -edge_rad, edge_rad, 499.5 * 0.12)
+        self.assertLess(abs(columns.mean() - (30 * math.sin(0.5) - left_m) * metre_px), 1.5)
+        self.assertLess(abs(rows.mean() - 30 * math.cos(0.5) * metre_px), 1.5)
+        page.get_by_label("detections").uncheck()
+        self.wait_for(lambda: not (self.picture(page, "bow/view") == 0xFFA4D67F).any())
+        self.assertEqual(self.errors, [])
+
     def test_of_a_head_that_looks_forward_ahead_is_up(self):
         self.check_target("forward")
 

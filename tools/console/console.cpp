@@ -56,17 +56,20 @@ void Console::leave(Viewer& viewer) { viewers_.remove(&viewer); }
 
 std::vector<msg::ConsoleItem> Console::items() const {
   std::vector<msg::ConsoleItem> items;
-  for (const LiveRun& run : live_runs(runs_folder())) items.push_back({std::string(kRun) + run.id(), "run", run.id() + ": " + run.about.text()});
+  for (const LiveRun& run : live_runs(runs_folder()))
+    items.push_back({std::string(kRun) + run.id(), "run", run.id() + ": " + run.about.text()});
   if (options_.folder.empty()) return items;
   for (const std::string& file : records_in(options_.folder))
-    items.push_back({std::string(kRecord) + file, "record", fs::path(file).lexically_relative(options_.folder).string()});
+    items.push_back(
+        {std::string(kRecord) + file, "record", fs::path(file).lexically_relative(options_.folder).string()});
   return items;
 }
 
 std::shared_ptr<Desk> Console::desk(const std::string& id) {
   if (const auto known = desks_.find(id); known != desks_.end()) return known->second;
   const auto listed = items();
-  if (id != options_.first && std::none_of(listed.begin(), listed.end(), [&](const auto& item) { return item.id == id; }))
+  if (id != options_.first &&
+      std::none_of(listed.begin(), listed.end(), [&](const auto& item) { return item.id == id; }))
     throw UserError(id + ": is no live run and no record of this console's list");
   if (desks_.size() >= kMostDesks)
     throw UserError("four runs or records are open, which is the most; close a page that shows another");
@@ -77,7 +80,8 @@ std::shared_ptr<Desk> Console::desk(const std::string& id) {
 }
 
 void Console::tick(WallTime now) {
-  std::erase_if(desks_, [&](const auto& entry) { return entry.second->empty() && now - entry.second->left() > kKeepDesk; });
+  std::erase_if(desks_,
+                [&](const auto& entry) { return entry.second->empty() && now - entry.second->left() > kKeepDesk; });
   for (const auto& [id, desk] : desks_) {
     if (!desk->poll(now)) continue;
     for (Viewer* viewer : viewers_)

@@ -16,9 +16,9 @@ namespace ensonify::console {
 class Viewer;
 
 struct ConsoleOptions {
-  std::string first;                    // id of what viewers see when they enter; "": a list
-  std::string folder;                   // where records may be opened; "": none
-  std::vector<std::string> launches;    // to name, not to start
+  std::string first;                  // id of what viewers see when they enter; "": a list
+  std::string folder;                 // where records may be opened; "": none
+  std::vector<std::string> launches;  // to name, not to start
   RecordOptions record;
 };
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollBudget{4};
 constexpr std::size_t kKept = 8;      // pictures that several viewers may share
+constexpr std::size_t kFinds = 16;    // pings of a head whose detections may belong to a picture that is still to come
 constexpr std::size_t kFanBeams = 3;  // a head with fewer beams draws lines
 constexpr std::string_view kPing = "ping";
 constexpr std::string_view kView = "view";
@@ -31,6 +32,14 @@ std::size_t beams_of(const msg::Packet& packet) {
   const msg::Value* angles = ping.find("beam_angle_rad");
   const auto* array = angles == nullptr ? nullptr : angles->as<msg::RawArray>();
   return array == nullptr ? 0 : array->size();
+}
+
+std::string process_of(const std::string& topic) { return topic.substr(0, topic.find('/')); }
+
+bool watches_view_of(const Flow& flow, const std::string& head) {
+  const std::string begin = head + "/" + std::string(kView);
+  return std::any_of(flow.watched().begin(), flow.watched().end(),
+                     [&](const msg::ConsoleWatched& watched) { return watched.topic.starts_with(begin); });
 }
 
 }  // namespace
@@ -60,10 +69,15 @@ void Desk::settle(Flow& flow, WallTime) {
 
 void Desk::ask_source() {
   std::set<std::string> wanted;
-  for (const auto& [topic, type] : type_of_) {
-    const std::string name = type == msg::Ping::kType ? view_topic_of(topic) : topic;
-    const std::string made = type == msg::Soundings::kType ? kCellsTopic : is_track(type) ? kTrackTopic : "";
-    const auto wants = [&](const Flow* flow) { return flow->watches(name) || (!made.empty() && flow->watches(made)); };
+  for (const auto& entry : type_of_) {
+    const std::string& topic = entry.first;
+    const bool soundings = entry.second == msg::Soundings::kType;
+    const std::string name = entry.second == msg::Ping::kType ? view_topic_of(topic) : topic;
+    const std::string made = soundings ? kCellsTopic : is_track(entry.second) ? kTrackTopic : "";
+    const auto wants = [&](const Flow* flow) {
+      return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
+             (soundings && watches_view_of(*flow, process_of(topic)));
+    };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
   }
   source_->want(wanted);
@@ -119,6 +133,11 @@ void Desk::take(msg::Packet packet, WallTime now) {
   }
   try {
     survey_.take(type->second, packet);
+    if (type->second == msg::Soundings::kType) {
+      auto& finds = finds_[process_of(packet.topic)];
+      finds.push_back(msg::decode<msg::Soundings>(packet.body, packet.body.size()));
+      if (finds.size() > kFinds) finds.pop_front();
+    }
   } catch (const msg::DecodeError&) {
     return;  // as above
   }
@@ -136,8 +155,10 @@ msg::Packet Desk::message_of(const Sending& sending) {
   if (known != made_.end()) return known->packet;
 
   const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());
-  const std::string head = packet.topic.substr(0, packet.topic.find('/'));
-  const msg::View view = view_of(ping, source_->beam_axis(head), sending.wish);
+  const std::string head = process_of(packet.topic);
+  msg::View view = view_of(ping, source_->beam_axis(head), sending.wish);
+  for (const msg::Soundings& soundings : finds_[head])
+    if (soundings.ping == ping.ping && soundings.stamp_ns == ping.stamp_ns) add_finds(view, soundings);
   msg::Packet picture{sending.offer.topic, packet.envelope, msg::encode(view), {}};
   picture.envelope.type_hash = msg::type_hash(msg::View::kType);
   made_.push_front({&packet, sending.wish, sending.offer.packet, picture});

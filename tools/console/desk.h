@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <list>
 #include <map>
 #include <memory>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/soundings.h"
 #include "tools/console/flow.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
@@ -49,6 +51,7 @@ class Desk {
   std::map<std::string, std::string> type_of_;  // of the source's topics
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
+  std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
 
   struct Made {  // the last pictures, for several viewers of one size
     const msg::Packet* of = nullptr;

@@ -22,7 +22,10 @@ class TestSource : public Source {
   msg::ConsoleState state() const override {
     msg::ConsoleState state;
     state.kind = "run";
-    state.topics = {{"bow/ping", "ping/1", "bow", ""}, {"side/ping_main", "ping/1", "side", ""}, {"nav/health", "health/1", "nav", ""}};
+    state.topics = {{"bow/ping", "ping/1", "bow", ""},
+                    {"side/ping_main", "ping/1", "side", ""},
+                    {"nav/health", "health/1", "nav", ""},
+                    {"bow/soundings", "soundings/1", "bow", ""}};
     return state;
   }
   std::string beam_axis(const std::string& publisher) const override { return publisher == "bow" ? "forward" : "down"; }
@@ -72,7 +75,7 @@ TEST_CASE("only topics that somebody watches are asked for") {
   scene.desk.add(scene.flow);
   CHECK(scene.wanted.empty());
   scene.watch({"bow/view", "side/view_main"});
-  CHECK(scene.wanted == std::set<std::string>{"bow/ping", "side/ping_main"});
+  CHECK(scene.wanted == std::set<std::string>{"bow/ping", "bow/soundings", "side/ping_main"});
   scene.watch({"nav/health"});
   CHECK(scene.wanted == std::set<std::string>{"nav/health"});
 }
@@ -114,6 +117,33 @@ TEST_CASE("who comes later gets the states and pictures that there are") {
   CHECK(late.next(scene.now)->offer.topic == "nav/health");
   CHECK(late.next(scene.now)->offer.topic == "bow/view");
   scene.desk.remove(late);
+}
+
+TEST_CASE("a picture has the detections of its own ping") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"bow/view"});
+  msg::Soundings soundings;
+  soundings.valid = msg::Array<std::uint8_t>::of({1});
+  soundings.beam_angle_rad = msg::Array<float>::of({0.1F});
+  soundings.travel_time_s = msg::Array<float>::of({0.01F});
+  soundings.applied.sound_speed_mps = 1500.0;
+  soundings.ping = 1;
+  scene.said = {{"bow/soundings", {}, msg::encode(soundings), {}}, ping("bow/ping", 5, 0)};
+  scene.desk.poll(scene.now);
+  auto sending = scene.flow.next(scene.now);
+  REQUIRE(sending);
+  const auto finds = [&] {
+    return msg::decode<msg::View>(scene.desk.message_of(*sending).body, 1 << 20).find_range_m.size();
+  };
+  CHECK(finds() == 0);  // they were another's
+  scene.flow.drawn("bow/view", 0, scene.now);
+  soundings.ping = 0;
+  scene.said = {{"bow/soundings", {}, msg::encode(soundings), {}}, ping("bow/ping", 5, 1)};
+  scene.desk.poll(scene.now);
+  sending = scene.flow.next(scene.now);
+  REQUIRE(sending);
+  CHECK(finds() == 1);
 }
 
 TEST_CASE("a ping without samples is no picture") {

@@ -41,8 +41,7 @@ std::optional<Refusal> Doors::refusal(const Request& request) const {
   if (!ours(request.host))
     return Refusal{421, fmt::format("this console answers as 127.0.0.1:{0} and localhost:{0} only", port_)};
   constexpr std::string_view kScheme = "http://";
-  if (!request.origin.empty() &&
-      (!request.origin.starts_with(kScheme) || !ours(request.origin.substr(kScheme.size()))))
+  if (!request.origin.empty() && (!request.origin.starts_with(kScheme) || !ours(request.origin.substr(kScheme.size()))))
     return Refusal{403, "pages of another origin have no access"};
   if (request.method != "GET" && request.method != "HEAD") return Refusal{405, "allowed: GET, HEAD"};
   if (request.upgrade != (request.target == "/live"))

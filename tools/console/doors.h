@@ -24,8 +24,8 @@ struct Refusal {
 enum class Power { view, control };
 
 /// Who may enter a console on the loopback interface. Another site's page in the same browser can neither read (Origin,
-/// Host: a name that turns to loopback is foreign) nor guess the tokens of 128 bits, which never travel in a URL's path,
-/// query or cookie.
+/// Host: a name that turns to loopback is foreign) nor guess the tokens of 128 bits, which never travel in a URL's
+/// path, query or cookie.
 class Doors {
  public:
   /// Draws the tokens.

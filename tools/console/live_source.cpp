@@ -19,10 +19,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kQueue = 200;                 // messages of a topic that wait for us
-constexpr milliseconds kAskAgain{200};      // for a run that is not there yet
-constexpr milliseconds kLookAgain{1000};    // whether it still is
-constexpr const char* kBeamAxis = "down";   // of heads that declare none
+constexpr int kQueue = 200;                // messages of a topic that wait for us
+constexpr milliseconds kAskAgain{200};     // for a run that is not there yet
+constexpr milliseconds kLookAgain{1000};   // whether it still is
+constexpr const char* kBeamAxis = "down";  // of heads that declare none
 
 /// What the clock says of a run, asked in a thread of its own: a run that is busy may take seconds to answer.
 struct Joined {
@@ -47,7 +47,8 @@ std::optional<Joined> join(const std::string& name) {
     const auto facts = clock.ask({{"kind", "get"}}).at("facts");
     if (std::find(facts.begin(), facts.end(), kDeclarationsFact) != facts.end()) {
       const std::string text = clock.ask({{"kind", "get"}, {"what", kDeclarationsFact}}).at("text");
-      for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(text)) joined.axes[head] = declaration.beam_axis;
+      for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(text))
+        joined.axes[head] = declaration.beam_axis;
     }
     return joined;
   } catch (const std::exception&) {
@@ -207,7 +208,7 @@ class LiveSource : public Source {
   std::future<Look> looking_;
   std::future<std::string> commanding_;
   std::string error_;  // of the last command
-  WallTime due_;  // of the next question
+  WallTime due_;       // of the next question
 };
 
 }  // namespace

@@ -35,12 +35,16 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("target", options.target,
-                 "launch file to run, or record (MCAP) or folder of a run to play; nothing: live runs and records to open");
-  auto* run = app.add_option("--run", options.run, "join this live run: its name, folder or clock's endpoint; waits for it");
+  app.add_option(
+      "target", options.target,
+      "launch file to run, or record (MCAP) or folder of a run to play; nothing: live runs and records to open");
+  auto* run =
+      app.add_option("--run", options.run, "join this live run: its name, folder or clock's endpoint; waits for it");
   run->excludes(app.get_option("target"));
-  app.add_option("--arg", options.own.args, "NAME=VALUE: an argument of the launch file; may be repeated")->allow_extra_args(false);
-  app.add_option("--set", options.own.sets, "PROCESS.KEY=VALUE or SECTION.KEY=VALUE: changes a parameter; may be repeated")
+  app.add_option("--arg", options.own.args, "NAME=VALUE: an argument of the launch file; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--set", options.own.sets,
+                 "PROCESS.KEY=VALUE or SECTION.KEY=VALUE: changes a parameter; may be repeated")
       ->allow_extra_args(false);
   app.add_option("--out", options.own.out, "folder of results of the run")->capture_default_str();
   auto* rate = app.add_option("--rate", options.own.rate,
@@ -48,12 +52,14 @@ void declare(CLI::App& app, Options& options) {
                    ->check(CLI::Range(1e-3, 1e6));
   app.add_flag("--free", options.own.free, "as fast as possible")->excludes(rate);
   app.add_flag("--loop", options.loop, "play a record again and again; times and numbers go on");
-  app.add_option("--port", options.port, "port on the loopback interface (default: any that is free)")->check(CLI::Range(1, 65535));
+  app.add_option("--port", options.port, "port on the loopback interface (default: any that is free)")
+      ->check(CLI::Range(1, 65535));
   app.add_option("--folder", options.folder,
                  "folder below which records may be opened (default: that of the record, or the run's --out)");
   app.add_flag("--stay", options.stay, "serve on after the run that it started, also without a terminal");
   app.footer(
-      "Prints two URLs: one to view, one to control as well. Serves until Ctrl-C (without a terminal until the run that it\n"
+      "Prints two URLs: one to view, one to control as well. Serves until Ctrl-C (without a terminal until the run "
+      "that it\n"
       "started ends) and gives that run's exit code.");
 }
 
@@ -117,7 +123,8 @@ int serve(const Options& options, std::optional<int>& ended) {
     }
     return milliseconds(console->watched() ? 5 : 50);
   });
-  for (const auto& [why, times] : console->refused()) fmt::print(stderr, "ensonify console: refused {}: {}\n", why, times);
+  for (const auto& [why, times] : console->refused())
+    fmt::print(stderr, "ensonify console: refused {}: {}\n", why, times);
   if (!own) return kExitOk;
   own->interrupt();
   return own->wait();

@@ -29,13 +29,15 @@ void shift(msg::Value& message, std::string_view key, std::int64_t by) {
 /// Plays a record at its own pace. It stands still while nobody watches.
 class RecordSource : public Source {
  public:
-  RecordSource(std::string file, const RecordOptions& options) : file_(std::move(file)), options_(options), speed_(options.speed) {
+  RecordSource(std::string file, const RecordOptions& options)
+      : file_(std::move(file)), options_(options), speed_(options.speed) {
     rewind();
     read_next();  // records of other writers name their topics among the messages
     list_topics();
     for (const record::Attachment& attachment : reader_->attachments()) {
       if (attachment.name != record::kDeclarationsName) continue;
-      for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(attachment.data)) axes_[head] = declaration.beam_axis;
+      for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(attachment.data))
+        axes_[head] = declaration.beam_axis;
     }
   }
 

@@ -2,6 +2,9 @@
 import { View } from "./messages";
 import { EMPTY, Limits, pixels } from "./palette";
 
+/** Colours of detections by their kind: neither, by amplitude, by phase. */
+export const FINDS = ["#ffffff", "#6fe3ff", "#7fd6a4"];
+
 export interface Place {
   across_m: number; // positive to starboard
   along_m: number; // down or forward, as the head's beam angles count
@@ -98,6 +101,23 @@ export class FanPicture {
     const cell = this.cellOfPixel;
     for (let i = 0; i < out.length; ++i) out[i] = cell[i] < 0 ? EMPTY : table[level[cell[i]]];
     context.putImageData(image, 0, 0);
+  }
+
+  /** A dot at every detection. */
+  drawFinds() {
+    const view = this.view;
+    if (!view) return;
+    const context = this.canvas.getContext("2d")!;
+    const { left_m, top_m, metre_px, upward } = this.frame;
+    for (let i = 0; i < view.find_range_m.data.length; ++i) {
+      const range = view.find_range_m.data[i];
+      const angle = view.find_angle_rad.data[i];
+      const x = (range * Math.sin(angle) - left_m) * metre_px;
+      const along = range * Math.cos(angle);
+      const y = (upward ? top_m - along : along - top_m) * metre_px;
+      context.fillStyle = FINDS[view.find_kind.data[i]] ?? FINDS[0];
+      context.fillRect(Math.round(x) - 1, Math.round(y) - 1, 3, 3);
+    }
   }
 
   /** Where a pixel of the canvas is, and its level. */

@@ -1138,6 +1138,12 @@ export interface View {
   position_enu_m: number[];
   /** estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known (1) */
   enu_from_head: number[];
+  /** beam axes of the ping's valid detections; empty: none are known (rad) */
+  find_angle_rad: Numbers<Float32Array>;
+  /** slant range of each of these detections, by the head's own sound speed (m) */
+  find_range_m: Numbers<Float32Array>;
+  /** kind of each of these detections: 1 by amplitude, 2 by phase, 0 neither (1) */
+  find_kind: Numbers<Uint8Array>;
 }
 
 /** Names of types by the hash in an envelope, in hexadecimal. */

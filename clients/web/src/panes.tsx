@@ -1,6 +1,6 @@
 // The panes: pictures of heads, and the health of the run.
 import { useEffect, useRef, useState } from "preact/hooks";
-import { FanPicture } from "./fan";
+import { FanPicture, FINDS } from "./fan";
 import { Limits, percentiles, RAMPS } from "./palette";
 import { View } from "./messages";
 import { clock, flow, health, watch, wish } from "./store";
@@ -77,6 +77,8 @@ function Scale({ ramp, limits, view, set }: { ramp: string; limits: Limits | nul
   );
 }
 
+const WATERFALL_DB = 30; // added to waterfalls: a seabed that a pulse cuts has even levels then
+
 interface Pointer {
   x: number;
   y: number;
@@ -89,13 +91,16 @@ function Fan({ topic, first }: { topic: string; first: View }) {
   const [given, setGiven] = useState<Limits | null>(null);
   const [pointer, setPointer] = useState<Pointer | null>(null);
   const picture = useRef<FanPicture | null>(null);
-  const kept = useRef<{ view: View; given: Limits | null; auto: Limits | null }>({ view: first, given: null, auto: null });
+  const [finds, setFinds] = useState(true);
+  const kept = useRef<{ view: View; given: Limits | null; auto: Limits | null; finds: boolean }>({ view: first, given: null, auto: null, finds: true });
   kept.current.given = given;
+  kept.current.finds = finds;
   const redraw = () => {
     const { view: newest, given: by, auto } = kept.current;
     const limits = by ?? auto;
     if (!limits || !picture.current) return;
     picture.current.draw(newest, limits);
+    if (kept.current.finds) picture.current.drawFinds();
     wish(topic, { cells: picture.current.cells, spreading_db: 0 });
   };
   const canvas = useCanvas((element) => {
@@ -107,21 +112,21 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     const auto = kept.current.auto;
     if (found) kept.current.auto = auto ? { low_db: 0.9 * auto.low_db + 0.1 * found.low_db, high_db: 0.9 * auto.high_db + 0.1 * found.high_db } : found;
   };
-  useEffect(() => {
-    judge(first);
-    redraw();
-    return watch(topic, { cells: 1024, spreading_db: 0 }, {
+  useEffect(
+    () => watch(topic, { cells: 1024, spreading_db: 0 }, {
       take(newest) {
-        kept.current.view = newest;
+        if (newest.added_spreading_db === 0) kept.current.view = newest; // else made before it was known that this is a fan
       },
       draw() {
+        if (kept.current.view.added_spreading_db !== 0) return;
         judge(kept.current.view);
         redraw();
         setView(kept.current.view);
       },
-    });
-  }, []);
-  useEffect(redraw, [given]);
+    }),
+    [],
+  );
+  useEffect(redraw, [given, finds]);
   const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
   return (
     <>
@@ -131,6 +136,11 @@ function Fan({ topic, first }: { topic: string; first: View }) {
       <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={(e) => setPointer(pointerOf(e))} onPointerLeave={() => setPointer(null)} />
       <footer>
         <Scale ramp="inferno" limits={given ?? kept.current.auto} view={view} set={setGiven} />
+        {view.find_range_m.data.length > 0 && (
+          <label>
+            <input type="checkbox" checked={finds} onChange={() => setFinds(!finds)} /> detections: <span style={{ color: FINDS[1] }}>amplitude</span> <span style={{ color: FINDS[2] }}>phase</span>
+          </label>
+        )}
         <span class="cursor">
           {place
             ? `range ${fixed(place.range_m)} m, ${fixed(degrees(place.angle_rad))}°, beam ${place.beam < 0 ? "-" : place.beam}; across ${fixed(place.across_m)} m, ${view.beam_axis === "forward" ? "ahead" : "down"} ${fixed(place.along_m)} m; ${fixed(place.level_db)} dB`
@@ -141,7 +151,8 @@ function Fan({ topic, first }: { topic: string; first: View }) {
   );
 }
 
-function Sidescan({ topic, first }: { topic: string; first: View }) {
+function Sidescan({ topic, early }: { topic: string; early: View[] }) {
+  const first = early[0];
   const [view, setView] = useState<View>(first);
   const [given, setGiven] = useState<Limits | null>(null);
   const [pointer, setPointer] = useState<Pointer | null>(null);
@@ -149,13 +160,14 @@ function Sidescan({ topic, first }: { topic: string; first: View }) {
   const canvas = useCanvas((element) => {
     if (!fall.current) {
       fall.current = new Waterfall(element);
-      fall.current.add(first);
+      for (const line of early.splice(0)) fall.current.add(line);
     }
     fall.current.draw();
   });
   useEffect(() => {
     let newest = first;
-    return watch(topic, { cells: 1024, spreading_db: 30 }, {
+    for (const line of early.splice(0)) fall.current?.add(line);
+    return watch(topic, { cells: 1024, spreading_db: WATERFALL_DB }, {
       take(line) {
         newest = line;
         fall.current?.add(line);
@@ -194,13 +206,17 @@ function Sidescan({ topic, first }: { topic: string; first: View }) {
 
 /** Shows what a head sends: with three beams and more a fan, with fewer a waterfall. */
 export function Head({ topic }: { topic: string }) {
+  const early = useRef<View[]>([]); // until the pane is there that draws them
   const [first, setFirst] = useState<View | null>(null);
-  useEffect(() => {
-    if (first) return undefined;
-    return watch(topic, { cells: 1024, spreading_db: 0 }, { take: setFirst, draw() {} });
-  }, [first === null]);
+  useEffect(() => watch(topic, { cells: 1024, spreading_db: WATERFALL_DB }, {
+    take(view) {
+      early.current.push(view);
+      setFirst((known) => known ?? view);
+    },
+    draw() {},
+  }), []);
   if (!first) return <header><b>{topic}</b> waits for a ping</header>;
-  return first.level.shape[0] > 2 ? <Fan topic={topic} first={first} /> : <Sidescan topic={topic} first={first} />;
+  return first.level.shape[0] > 2 ? <Fan topic={topic} first={first} /> : <Sidescan topic={topic} early={early.current} />;
 }
 
 const time_s = (value: number) => `${value.toFixed(1)} s`;

@@ -177,7 +177,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (file == shared_.page.end()) return refuse({404, "there is no such file; the page is at /"});
     keep_ = request.keep_alive();
     head_ = method == "HEAD";
-    write(200, file->media_type, file->content);
+    const bool compressed = header(http::field::accept_encoding).find("gzip") != std::string::npos;
+    write(200, file->media_type, compressed ? file->compressed : file->content, compressed);
   }
 
   void refuse(const Refusal& refusal) {
@@ -187,11 +188,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
     write(refusal.status, "text/plain; charset=utf-8", reason_);
   }
 
-  void write(int status, std::string_view media_type, std::string_view content) {
+  void write(int status, std::string_view media_type, std::string_view content, bool compressed = false) {
     response_.emplace();
     response_->version(11);
     response_->result(static_cast<unsigned>(status));
     response_->set(http::field::content_type, beast::string_view(media_type.data(), media_type.size()));
+    if (compressed) response_->set(http::field::content_encoding, "gzip");
     response_->set("Content-Security-Policy", kPolicy);
     response_->set("X-Content-Type-Options", "nosniff");
     response_->set("Referrer-Policy", "no-referrer");

@@ -39,6 +39,7 @@ struct PageFile {
   std::string_view path;  // "/app.js"
   std::string_view media_type;
   std::string_view content;
+  std::string_view compressed;  // the same, by gzip
 };
 
 struct ServerOptions {
