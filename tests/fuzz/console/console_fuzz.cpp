@@ -1,5 +1,5 @@
-// Arbitrary texts as what a viewer says to the console: each is answered, refused or obeyed, whatever it is. One message a
-// line; the first line begins with 'c' where the viewer came by the URL to control.
+// Arbitrary texts as what a viewer says to the console: each is answered, refused or obeyed, whatever it is. One
+// message a line; the first line begins with 'c' where the viewer came by the URL to control.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

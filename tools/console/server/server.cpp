@@ -151,8 +151,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
     http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
       if (!error) return self->respond();
       if (error == http::error::header_limit || error == http::error::bad_target || error == http::error::bad_method ||
-          error == http::error::bad_version || error == http::error::bad_line_ending || error == http::error::bad_field ||
-          error == http::error::bad_value)
+          error == http::error::bad_version || error == http::error::bad_line_ending ||
+          error == http::error::bad_field || error == http::error::bad_value)
         return self->refuse({400, "this is no HTTP request that a console answers"});
     });
   }
@@ -167,13 +167,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const std::string method(request.method_string());
     const std::string target(request.target());
     if (const auto refusal = shared_.doors.refusal({method, target, host, origin, upgrade})) return refuse(*refusal);
-    if (parser_->content_length().value_or(0) > 0 || parser_->chunked()) return refuse({413, "requests have no body here"});
+    if (parser_->content_length().value_or(0) > 0 || parser_->chunked())
+      return refuse({413, "requests have no body here"});
     if (upgrade) {
       http::request<http::empty_body> plain(request.base());
       std::make_shared<Socket>(shared_, std::move(stream_), counted_)->accept(plain);
       return;
     }
-    const auto file = std::find_if(shared_.page.begin(), shared_.page.end(), [&](const PageFile& f) { return f.path == target; });
+    const auto file =
+        std::find_if(shared_.page.begin(), shared_.page.end(), [&](const PageFile& f) { return f.path == target; });
     if (file == shared_.page.end()) return refuse({404, "there is no such file; the page is at /"});
     keep_ = request.keep_alive();
     head_ = method == "HEAD";
@@ -232,7 +234,8 @@ struct Server::Inside {
   asio::steady_timer timer{io};
   asio::steady_timer pause{io};
 
-  Inside(const ServerOptions& options, Doors& doors, Enter enter) : shared{io, doors, options.page, std::move(enter), 0} {
+  Inside(const ServerOptions& options, Doors& doors, Enter enter)
+      : shared{io, doors, options.page, std::move(enter), 0} {
     const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<unsigned short>(options.port));
     error_code error;
     acceptor.open(here.protocol(), error);
