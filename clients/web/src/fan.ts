@@ -1,6 +1,6 @@
 // A fan: every pixel shows the nearest beam at its range. Drawn as the head has it, along its own axis.
 import { View } from "./messages";
-import { EMPTY, Limits, pixels } from "./palette";
+import { EMPTY, IN_MEMORY, Limits, pixels } from "./palette";
 
 /** Colours of detections by their kind: neither, by amplitude, by phase. */
 export const FINDS = ["#ffffff", "#6fe3ff", "#7fd6a4"];
@@ -89,7 +89,7 @@ export class FanPicture {
 
   draw(view: View, limits: Limits) {
     this.view = view;
-    const context = this.canvas.getContext("2d")!;
+    const context = this.canvas.getContext("2d", IN_MEMORY)!;
     const { width, height } = this.canvas;
     const beams = view.level.shape[0];
     if (beams < 2 || !width || !height) return;
@@ -107,7 +107,7 @@ export class FanPicture {
   drawFinds() {
     const view = this.view;
     if (!view) return;
-    const context = this.canvas.getContext("2d")!;
+    const context = this.canvas.getContext("2d", IN_MEMORY)!;
     const { left_m, top_m, metre_px, upward } = this.frame;
     for (let i = 0; i < view.find_range_m.data.length; ++i) {
       const range = view.find_range_m.data[i];

@@ -24,6 +24,8 @@ function ramp(name: string): Uint32Array {
 export const RAMPS: Record<string, Uint32Array> = { inferno: ramp("inferno"), copper: ramp("copper") };
 /** Depths from shoal (warm and light) to deep (cold and dark), of monotonic lightness. */
 export const DEPTHS: Uint32Array = ramp("depth").reverse();
+/** Pixels are made here and written by the processor: a canvas on a graphics card, or on one that is emulated, would be slower. */
+export const IN_MEMORY: CanvasRenderingContext2DSettings = { willReadFrequently: true };
 export const EMPTY = 0xff2a2a2a; // where nothing was received, or no beam pointed
 export const GAP = 0xff705030; // where lines are missing
 

@@ -1,7 +1,7 @@
 // A waterfall: the newest ping at the top, port to the left and starboard to the right, slant range. Of a single beam (an
 // echogram) the range grows from left to right.
 import { View } from "./messages";
-import { EMPTY, GAP, Limits, percentiles, pixels } from "./palette";
+import { EMPTY, GAP, IN_MEMORY, Limits, percentiles, pixels } from "./palette";
 
 const LINES = 1024; // kept
 const SIDE = 1024; // pixels of a side in the kept picture
@@ -46,7 +46,7 @@ export class Waterfall {
     this.lines = [];
     this.gaps = 0;
     this.head = 0;
-    const context = this.ring.getContext("2d")!;
+    const context = this.ring.getContext("2d", IN_MEMORY)!;
     context.clearRect(0, 0, this.ring.width, this.ring.height);
   }
 
@@ -85,7 +85,7 @@ export class Waterfall {
   }
 
   private paint({ view }: Line) {
-    const context = this.ring.getContext("2d")!;
+    const context = this.ring.getContext("2d", IN_MEMORY)!;
     const y = this.head;
     this.head = (this.head + 1) % LINES;
     context.clearRect(0, y, 2 * SIDE, 1);
@@ -108,7 +108,7 @@ export class Waterfall {
     }
     this.row.width = wide;
     this.row.height = 1;
-    this.row.getContext("2d")!.putImageData(image, 0, 0);
+    this.row.getContext("2d", IN_MEMORY)!.putImageData(image, 0, 0);
     context.drawImage(this.row, 0, 0, wide, 1, 0, y, 2 * SIDE, 1);
   }
 
@@ -124,7 +124,7 @@ export class Waterfall {
 
   draw() {
     const { width, height } = this.canvas;
-    const context = this.canvas.getContext("2d")!;
+    const context = this.canvas.getContext("2d", IN_MEMORY)!;
     context.fillStyle = "#101418";
     context.fillRect(0, 0, width, height);
     context.imageSmoothingEnabled = false;

@@ -1,7 +1,10 @@
 #include "tools/console/server/server.h"
 
 #include <linux/sockios.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/ioctl.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
@@ -26,7 +29,9 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using beast::error_code;
 
-constexpr int kSendBuffer = 32 * 1024;  // so that what waits does so with us, where newer messages can overtake it
+// What waits does so with us, where newer messages can overtake it. (A small send buffer would do the same, and leave
+// the sender to wait for delayed acknowledgements.)
+constexpr int kUnsent = 16 * 1024;
 constexpr std::uint32_t kMostHeader = 8 * 1024;
 constexpr std::size_t kLongestReason = 120;  // a close frame holds 123 bytes
 
@@ -71,7 +76,8 @@ class Socket : public Line, public std::enable_shared_from_this<Socket> {
     socket_.auto_fragment(false);
     error_code ignored;
     beast::get_lowest_layer(socket_).expires_never();
-    beast::get_lowest_layer(socket_).socket().set_option(asio::socket_base::send_buffer_size(kSendBuffer), ignored);
+    ::setsockopt(beast::get_lowest_layer(socket_).socket().native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsent,
+                 sizeof kUnsent);
     beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), ignored);
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (!error) self->begin();
