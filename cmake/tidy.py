@@ -46,8 +46,8 @@ def key_of(entry):
     # Make's form: target, colon, files; lines go on after a backslash.
     included = shlex.split(listed.stdout.replace("\\\n", " ").split(":", 1)[1])
     read = sorted(pathlib.Path(entry["directory"], path).resolve() for path in included)
-    told = [settings(), " ".join(plain[1:]), *(f"{path} {sum_of(path)}" for path in read)]
-    return hashlib.sha256("\n".join(told).replace(str(ROOT), "").encode()).hexdigest()
+    parts = [settings(), " ".join(plain[1:]), *(f"{path} {sum_of(path)}" for path in read)]
+    return hashlib.sha256("\n".join(parts).replace(str(ROOT), "").encode()).hexdigest()
 
 
 def tidy(build, path, entry):

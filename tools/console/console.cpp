@@ -18,13 +18,16 @@ constexpr std::string_view kRecord = "record:";
 constexpr std::chrono::seconds kKeepDesk{5};  // after its last viewer has left
 constexpr std::size_t kMostItems = 200;
 constexpr int kDeepest = 4;
+constexpr int kMostEntries = 20'000;  // of folders that are gone through: nobody waits for a whole disk
 
 /// Records below a folder, without links and hidden names.
 std::vector<std::string> records_in(const std::string& folder) {
   std::vector<std::string> found;
   std::error_code error;
   fs::recursive_directory_iterator it(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+  int entries = 0;
+  for (; !error && it != fs::recursive_directory_iterator() && entries < kMostEntries; it.increment(error)) {
+    ++entries;
     const bool hidden = it->path().filename().string().starts_with(".");
     if (it->is_symlink(error) || hidden || it.depth() > kDeepest) {
       it.disable_recursion_pending();

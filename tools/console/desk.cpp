@@ -62,7 +62,7 @@ void Desk::remove(Flow& flow) {
   if (!viewers_.empty()) ask_source();
 }
 
-void Desk::settle(Flow& flow, WallTime) {
+void Desk::settle(Flow& flow) {
   ask_source();
   for (const auto& [topic, offer] : newest_) flow.offer(offer);
 }
@@ -85,6 +85,7 @@ void Desk::ask_source() {
 
 void Desk::refresh() {
   state_ = source_->state();
+  if (state_.message.empty()) state_.message = fault_;
   type_of_.clear();
   for (msg::ConsoleTopic& topic : state_.topics) {
     type_of_[topic.name] = topic.type;
@@ -104,10 +105,19 @@ void Desk::refresh() {
 bool Desk::poll(WallTime now) {
   try {
     source_->poll(now, kPollBudget, [&](msg::Packet packet) { take(std::move(packet), now); });
-  } catch (const msg::DecodeError&) {
-    // A message that cannot be read is passed over; what follows is taken at the next poll.
+  } catch (const std::exception& e) {
+    // A message that cannot be read, a file that has gone: what follows is taken at the next poll.
+    fault_ = e.what();
   }
-  const msg::ConsoleState fresh = source_->state();
+  msg::ConsoleState fresh = source_->state();
+  if (fresh.message.empty()) fresh.message = fault_;
+  const bool was_away = state_.state == "waiting" || state_.state == "ended";
+  if (fresh.kind == "run" && was_away && fresh.state == "running") {  // another run of that name
+    survey_.clear();
+    newest_.clear();
+    finds_.clear();
+    fault_.clear();
+  }
   const bool topics_changed = fresh.topics.size() != type_of_.size();
   if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
       fresh.speed == state_.speed && fresh.name == state_.name)
@@ -150,8 +160,9 @@ msg::Packet Desk::message_of(const Sending& sending) {
   const msg::Packet& packet = *sending.offer.packet;
   const auto type = type_of_.find(packet.topic);
   if (type == type_of_.end() || type->second != msg::Ping::kType) return packet;
-  const auto known = std::find_if(made_.begin(), made_.end(),
-                                  [&](const Made& made) { return made.of == &packet && made.wish == sending.wish; });
+  const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
+    return made.of == sending.offer.packet && made.wish == sending.wish;
+  });
   if (known != made_.end()) return known->packet;
 
   const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());
@@ -161,7 +172,7 @@ msg::Packet Desk::message_of(const Sending& sending) {
     if (soundings.ping == ping.ping && soundings.stamp_ns == ping.stamp_ns) add_finds(view, soundings);
   msg::Packet picture{sending.offer.topic, packet.envelope, msg::encode(view), {}};
   picture.envelope.type_hash = msg::type_hash(msg::View::kType);
-  made_.push_front({&packet, sending.wish, sending.offer.packet, picture});
+  made_.push_front({sending.offer.packet, sending.wish, picture});
   if (made_.size() > kKept) made_.pop_back();
   return picture;
 }

@@ -27,7 +27,7 @@ class Desk {
   WallTime left() const { return left_; }
 
   /// After a viewer has changed what it watches, or is back: gives it the states that there are.
-  void settle(Flow& flow, WallTime now);
+  void settle(Flow& flow);
   /// Takes from the source what has come; true when state() has changed.
   bool poll(WallTime now);
 
@@ -48,15 +48,15 @@ class Desk {
   std::list<Flow*> viewers_;
   WallTime left_;
   msg::ConsoleState state_;
+  std::string fault_;                           // of the source, which goes on
   std::map<std::string, std::string> type_of_;  // of the source's topics
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
   std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
 
   struct Made {  // the last pictures, for several viewers of one size
-    const msg::Packet* of = nullptr;
+    std::shared_ptr<const msg::Packet> of;
     PictureWish wish;
-    std::shared_ptr<const msg::Packet> keep;  // so that `of` stays one ping's address
     msg::Packet packet;
   };
   std::list<Made> made_;

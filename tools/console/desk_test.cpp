@@ -17,11 +17,14 @@ class TestSource : public Source {
  public:
   std::deque<msg::Packet>& said;
   std::set<std::string>& wanted;
+  std::string word = "running";
+  std::string fault;  // thrown by poll
   TestSource(std::deque<msg::Packet>& packets, std::set<std::string>& topics) : said(packets), wanted(topics) {}
 
   msg::ConsoleState state() const override {
     msg::ConsoleState state;
     state.kind = "run";
+    state.state = word;
     state.topics = {{"bow/ping", "ping/1", "bow", ""},
                     {"side/ping_main", "ping/1", "side", ""},
                     {"nav/health", "health/1", "nav", ""},
@@ -31,6 +34,7 @@ class TestSource : public Source {
   std::string beam_axis(const std::string& publisher) const override { return publisher == "bow" ? "forward" : "down"; }
   void want(const std::set<std::string>& topics) override { wanted = topics; }
   void poll(WallTime, std::chrono::milliseconds, const Take& take) override {
+    if (!fault.empty()) throw std::runtime_error(fault);
     while (!said.empty()) {
       msg::Packet packet = said.front();
       said.pop_front();
@@ -57,14 +61,15 @@ struct Scene {
   std::deque<msg::Packet> said;
   std::set<std::string> wanted;
   WallTime now = std::chrono::steady_clock::now();
-  Desk desk{std::make_unique<TestSource>(said, wanted)};
+  TestSource* source = new TestSource(said, wanted);  // the desk's
+  Desk desk{std::unique_ptr<Source>(source)};
   Flow flow{now};
 
   void watch(const std::vector<std::string>& topics) {
     msg::ConsoleWatch wish;
     for (const auto& topic : topics) wish.topics.push_back({topic, 16, false, 0.0, 0.0});
     flow.watch(wish, now);
-    desk.settle(flow, now);
+    desk.settle(flow);
   }
 };
 
@@ -113,7 +118,7 @@ TEST_CASE("who comes later gets the states and pictures that there are") {
   wish.topics = {{"nav/health", 16, false, 0.0, 0.0}, {"bow/view", 16, false, 0.0, 0.0}};
   late.watch(wish, scene.now);
   scene.desk.add(late);
-  scene.desk.settle(late, scene.now);
+  scene.desk.settle(late);
   CHECK(late.next(scene.now)->offer.topic == "nav/health");
   CHECK(late.next(scene.now)->offer.topic == "bow/view");
   scene.desk.remove(late);
@@ -144,6 +149,39 @@ TEST_CASE("a picture has the detections of its own ping") {
   sending = scene.flow.next(scene.now);
   REQUIRE(sending);
   CHECK(finds() == 1);
+}
+
+TEST_CASE("another run of the same name begins with an empty chart") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"cells"});
+  msg::Soundings soundings;
+  soundings.valid = msg::Array<std::uint8_t>::of({1});
+  soundings.position_enu_m = msg::Array<double>({1, 3});
+  soundings.position_enu_m(0, 2) = -20.0;
+  scene.said = {{"bow/soundings", {}, msg::encode(soundings), {}}};
+  scene.desk.poll(scene.now);
+  Survey::Seen seen;
+  CHECK(scene.desk.survey().new_cells(seen));
+  for (const char* word : {"ended", "running"}) {
+    scene.source->word = word;
+    CHECK(scene.desk.poll(scene.now));
+  }
+  seen = {};
+  CHECK_FALSE(scene.desk.survey().new_cells(seen));
+}
+
+TEST_CASE("a source that fails is named, and polled again") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"bow/view"});
+  scene.source->fault = "the file has gone";
+  CHECK(scene.desk.poll(scene.now));
+  CHECK(scene.desk.state().message == "the file has gone");
+  scene.source->fault.clear();
+  scene.said = {ping("bow/ping", 5, 0)};
+  scene.desk.poll(scene.now);
+  CHECK(scene.flow.next(scene.now));
 }
 
 TEST_CASE("a ping without samples is no picture") {

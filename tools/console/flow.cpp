@@ -10,7 +10,7 @@ double seconds(std::chrono::nanoseconds time) { return 1e-9 * static_cast<double
 
 }  // namespace
 
-Flow::Flow(WallTime now) : heard_(now), reported_(now) {}
+Flow::Flow(WallTime now) : answered_(now), reported_(now) {}
 
 void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
   if (wish.topics.size() > kMostTopics)
@@ -31,7 +31,7 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
     Topic& topic = topics_[watched.topic];
     topic.wish = {static_cast<std::size_t>(watched.cells), watched.peak, watched.spreading_db, watched.absorption_dbpm};
   }
-  heard_ = now;
+  answered_ = now;
 }
 
 bool Flow::watches(const std::string& topic) const {
@@ -144,14 +144,14 @@ void Flow::drawn(const std::string& name, std::uint64_t seq, WallTime now) {
 }
 
 bool Flow::answered(WallTime now) {
-  heard_ = now;
+  answered_ = now;
   if (wish_.hidden || !was_away_) return false;
   was_away_ = false;
   for (auto& [name, topic] : topics_) topic.on_its_way.clear();
   return true;
 }
 
-bool Flow::away(WallTime now) const { return wish_.hidden || now - heard_ > kPatience; }
+bool Flow::away(WallTime now) const { return wish_.hidden || now - answered_ > kPatience; }
 
 msg::ConsoleFlow Flow::report(WallTime now) {
   msg::ConsoleFlow flow;

@@ -72,7 +72,8 @@ class Flow {
   std::optional<Sending> next(WallTime now, std::size_t in_link = 0);
   /// That message was so many bytes.
   void sent(std::size_t bytes);
-  /// Called again and again: whether the link is empty. Tells how long messages need, however busy the viewer is.
+  /// Called again and again: whether the link is empty. From it follows how long messages need, however busy the viewer
+  /// is.
   void passed(WallTime now, bool empty);
   /// The viewer has drawn a message.
   void drawn(const std::string& topic, std::uint64_t seq, WallTime now);
@@ -114,7 +115,7 @@ class Flow {
   std::string last_topic_;              // behind which the next turn begins
   std::optional<InLink> next_in_link_;  // to which sent() refers
   std::optional<InLink> in_link_;       // the message whose passage is timed: the largest of those in the link
-  WallTime heard_;
+  WallTime answered_;
   WallTime reported_;
   bool was_away_ = false;
   double link_bytes_per_s_ = 0.0;

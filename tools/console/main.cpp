@@ -75,7 +75,7 @@ std::vector<std::string> launch_files() {
   return found;
 }
 
-/// `ended` is set to the exit code of a run that ended before the console was told to.
+/// `ended` is set to the exit code of a run that ended before the console was interrupted.
 int serve(const Options& options, std::optional<int>& ended) {
   ConsoleOptions console_options;
   console_options.folder = options.folder;

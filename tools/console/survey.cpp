@@ -33,11 +33,7 @@ void Survey::take(const std::string& type, const msg::Packet& packet) {
   const bool soundings = type == msg::Soundings::kType;
   const bool estimate = type == msg::Estimate::kType;
   if (!soundings && !estimate && type != msg::Pose::kType) return;
-  if (epoch_ && *epoch_ != packet.envelope.epoch) {
-    const std::int64_t next = generation_ + 1;
-    *this = Survey();
-    generation_ = next;
-  }
+  if (epoch_ && *epoch_ != packet.envelope.epoch) clear();
   epoch_ = packet.envelope.epoch;
   if (soundings) {
     add(msg::decode<msg::Soundings>(packet.body, packet.body.size()));
@@ -48,6 +44,12 @@ void Survey::take(const std::string& type, const msg::Packet& packet) {
     const auto pose = msg::decode<msg::Pose>(packet.body, packet.body.size());
     add(packet.topic, true, pose.stamp_ns, pose.position_enu_m, pose.enu_from_body);
   }
+}
+
+void Survey::clear() {
+  const std::int64_t next = generation_ + 1;
+  *this = Survey();
+  generation_ = next;
 }
 
 void Survey::add(const msg::Soundings& soundings) {

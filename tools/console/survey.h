@@ -27,6 +27,9 @@ class Survey {
   /// soundings/1, estimate/1 and pose/1; others are passed over. Another epoch begins anew.
   void take(const std::string& type, const msg::Packet& packet);
 
+  /// Begins anew: viewers drop what they have.
+  void clear();
+
   /// How far a viewer has come.
   struct Seen {
     std::int64_t generation = 0;

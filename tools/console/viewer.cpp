@@ -56,21 +56,20 @@ void Viewer::said(std::string_view text) {
     const auto* name = named == nullptr ? nullptr : named->as<std::string>();
     if (name == nullptr) throw msg::DecodeError("a message is a JSON object with the key type");
     type = *name;
-    take(type, std::string(text), now);
+    take(type, value, now);
   } catch (const msg::DecodeError& e) {
     console_.count_refused("messages that say nothing we know");
     if (!power_) return line_.close("the first message must be console_enter/1 with a token");
     answer(type, e.what());
-  } catch (const UserError& e) {
+  } catch (const std::exception& e) {  // a run or record that cannot be opened, for one
     answer(type, e.what());
   }
   push(now);
 }
 
-void Viewer::take(const std::string& type, const std::string& text, WallTime now) {
-  const msg::Value value = msg::from_json(text);
+void Viewer::take(const std::string& type, const msg::Value& message, WallTime now) {
   if (!power_) {
-    if (type == msg::ConsoleEnter::kType) power_ = console_.doors().power_of(read<msg::ConsoleEnter>(value).token);
+    if (type == msg::ConsoleEnter::kType) power_ = console_.doors().power_of(read<msg::ConsoleEnter>(message).token);
     if (!power_) {
       console_.count_refused("viewers without a token of this console");
       return line_.close("no token of this console: open the URL that it printed");
@@ -80,10 +79,10 @@ void Viewer::take(const std::string& type, const std::string& text, WallTime now
   if (flow_.answered(now)) {
     seen_ = {};
     send_state();
-    if (desk_) desk_->settle(flow_, now);
+    if (desk_) desk_->settle(flow_);
   }
   if (type == msg::ConsoleDrawn::kType) {
-    const auto drawn = read<msg::ConsoleDrawn>(value);
+    const auto drawn = read<msg::ConsoleDrawn>(message);
     return flow_.drawn(drawn.topic, static_cast<std::uint64_t>(drawn.seq), now);
   }
   if (now - second_ > std::chrono::seconds(1)) {
@@ -95,16 +94,16 @@ void Viewer::take(const std::string& type, const std::string& text, WallTime now
     throw UserError("more than 50 messages in a second");
   }
   if (type == msg::ConsoleWatch::kType) {
-    const auto wish = read<msg::ConsoleWatch>(value);
+    const auto wish = read<msg::ConsoleWatch>(message);
     const bool cells = flow_.watches(kCellsTopic), track = flow_.watches(kTrackTopic);
     flow_.watch(wish, now);
     if (flow_.watches(kCellsTopic) && !cells) seen_.cells = 0;
     if (flow_.watches(kTrackTopic) && !track) seen_.points.clear();
-    if (desk_) desk_->settle(flow_, now);
+    if (desk_) desk_->settle(flow_);
   } else if (type == msg::ConsoleOpen::kType) {
-    sit_at(read<msg::ConsoleOpen>(value).id);
+    sit_at(read<msg::ConsoleOpen>(message).id);
   } else if (type == msg::ConsoleCommand::kType) {
-    const auto command = read<msg::ConsoleCommand>(value);
+    const auto command = read<msg::ConsoleCommand>(message);
     if (power_ != Power::control) {
       console_.count_refused("commands by the URL to view");
       throw UserError("this URL is to view only; the other one that the console printed is to control");
@@ -126,7 +125,7 @@ void Viewer::sit_at(const std::string& id) {
   seen_ = {};
   if (desk_) {
     desk_->add(flow_);
-    desk_->settle(flow_, std::chrono::steady_clock::now());
+    desk_->settle(flow_);
   }
   send_state();
 }

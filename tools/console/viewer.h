@@ -33,7 +33,7 @@ class Viewer : public Visitor {
   bool entered() const { return power_.has_value(); }
 
  private:
-  void take(const std::string& type, const std::string& text, WallTime now);
+  void take(const std::string& type, const msg::Value& message, WallTime now);
   void sit_at(const std::string& id);
   void answer(const std::string& request, const std::string& error);
   void push(WallTime now);
