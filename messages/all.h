@@ -6,6 +6,7 @@
 #include "messages/console.h"
 #include "messages/declarations.h"
 #include "messages/health.h"
+#include "messages/labels.h"
 #include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -20,8 +21,8 @@ namespace ensonify::msg {
 using AllMessages =
     std::tuple<Pose, Guidance, Helm, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
-               Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
-               MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
+               Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Transmit, SonarSettings, Tile, TileRelease,
+               Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
                ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack, ConsoleEnter, ConsoleWatch,
                ConsoleDrawn, ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
 

@@ -114,6 +114,7 @@ struct Object {
   std::array<double, 4> enu_from_object{1.0, 0.0, 0.0, 0.0};
   bool smooth = false;
   std::int64_t sediment = 0;
+  double buried = 0.0;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -133,6 +134,7 @@ struct Object {
     visit("smooth", "", "smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle",
           self.smooth);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
+    visit("buried", "1", "part of the volume, 0..1, below the height of the seabed at its middle", self.buried);
   }
 };
 

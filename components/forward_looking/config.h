@@ -60,6 +60,7 @@ struct ForwardLookingConfig : HeadConfig {
     visit("range_m", "m", in(0.5, 1000), "range at the start", self.range_m);
     visit("longest_range_m", "m", in(0.5, 1000), "longest range that can be set", self.longest_range_m);
     HeadParameters::parameters(self, visit);
+    label_kinds(self, visit);
     sound_speed(self, visit);
   }
   static ForwardLookingConfig read(ConfigReader& from, const World& world, const std::string& process);

@@ -60,6 +60,34 @@ trace::TransmitVolume volume_of(const ForwardLookingConfig& config) {
   return volume;
 }
 
+/// All elevations of the main lobe of the narrower face, and the main lobe of a beam.
+LabelView label_view_of(const ForwardLookingConfig& config, const LineDesign& line, const array::Pattern& element) {
+  constexpr int kSteps = 256;
+  const double tall = array::length_in_waves_for(std::min(config.transmit_vertical_rad, config.receive_vertical_rad));
+  const double half_rad = std::asin(std::min(1.0, 1.0 / tall));
+  LabelView view;
+  view.axes = {Eigen::Vector3f::UnitY(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ()};
+  view.sectors = {{config.tilt_rad - half_rad, config.tilt_rad + half_rad, &element}};
+  view.lobe.null = line.first_null;
+  for (int i = 0; i <= kSteps; ++i)
+    view.lobe.power.push_back(
+        static_cast<float>(array::power(line.line, line.wavelength_m, line.first_null * i / kSteps)));
+  return view;
+}
+
+/// Cells of beams: each direction belongs to the nearest axis.
+std::vector<label::Row> rows_of(std::span<const float> sin_beams) {
+  std::vector<label::Row> rows;
+  for (std::size_t b = 0; b < sin_beams.size(); ++b) {
+    const auto at = [&](std::size_t beam) { return static_cast<double>(sin_beams[beam]); };
+    const double axis = at(b);
+    const double below = b > 0 ? 0.5 * (axis - at(b - 1)) : 0.5 * (at(b + 1) - axis);
+    const double above = b + 1 < sin_beams.size() ? 0.5 * (at(b + 1) - axis) : below;
+    rows.push_back({axis, axis - below, axis + above, 0});
+  }
+  return rows;
+}
+
 ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray& line, const ForwardFaces& faces) {
   ReceiveArray array;
   array.frequency_hz = config.frequency_hz;
@@ -122,11 +150,15 @@ ForwardLooking::ForwardLooking(const Config& config, std::size_t)
               std::make_shared<const Environment>(*config.world, config.frequency_hz), config.effects, config.quality),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
-          [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)) {}
+          [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)),
+      label_view_(label_view_of(config, line_, faces_.element)) {
+  if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_);
+}
 
-HeadOutputs<msg::Ping> ForwardLooking::outputs() const {
+HeadOutputs<msg::Ping, msg::Labels> ForwardLooking::outputs() const {
   const auto samples = static_cast<std::size_t>(config_.beams) * static_cast<std::size_t>(config_.pulse.most_samples);
-  return {{"ping", samples * sizeof(float) + 65536}};
+  const std::size_t bytes = samples * sizeof(float) + 65536;
+  return {{"ping", bytes}, {"labels", bytes, config_.labels != LabelKind::kNone}};
 }
 
 SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
@@ -178,12 +210,26 @@ ForwardLooking::Report ForwardLooking::ping(const PingEvent& event, const SentPi
   const Insonified insonified = sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, reach_m, memory_.shot);
   const Echoed echoed = sea.echoes(shot, insonified, memory_.shot);
   const echo::Arrivals& foreign = sea.interference(shot, echoed, event.interfering, design.shot.pulse, memory_.shot);
-  const auto images =
-      echoes_.beamform(shot, echoed, design.shot,
-                       {event.number(), sampling, memory_.sin_beams, volume_directions_, foreign}, memory_.beams);
+  const ArrayReception reception{event.number(), sampling, memory_.sin_beams, volume_directions_, foreign};
+  const auto images = echoes_.beamform(shot, echoed, design.shot, reception, memory_.beams);
+  std::optional<msg::Labels> labels;
+  if (labeller_) labels = labels_of(event, shot, mesh, echoed, design, reception, reach_m);
 
-  return {.messages = {ping_message(event, sent, design, images.front())},
+  return {.messages = {ping_message(event, sent, design, images.front()), std::move(labels)},
           .trouble = no_echo_reason(echoed.summary(shot, settings.range_m, around.seabed))};
+}
+
+msg::Labels ForwardLooking::labels_of(const PingEvent& event, const Shot& shot, const trace::Mesh& mesh,
+                                      const Echoed& echoed, const Design& design, const ArrayReception& reception,
+                                      double reach_m) {
+  const std::vector<label::Row> rows = rows_of(reception.sin_beams);
+  const std::vector<float> background =
+      echoes_.expected_background_upa2(design.shot.pulse, reception, label_view_.lobe, memory_.beams);
+  msg::Labels labels = labeller_->labels(echoes_.sea(), shot, mesh, echoed, design.shot,
+                                         {rows, reception.sampling, background, reach_m}, memory_.shot, memory_.labels);
+  labels.stamp_ns = event.transmit.count();
+  labels.ping = event.ping;
+  return labels;
 }
 
 /// Delays are made for the sound speed that the head knows; the true one turns its beams.

@@ -7,10 +7,12 @@
 #include "components/forward_looking/config.h"
 #include "components/sonar/array_echoes.h"
 #include "components/sonar/head_node.h"
+#include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
 #include "components/sonar/shot_design.h"
 #include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/array/pattern.h"
+#include "messages/labels.h"
 #include "messages/sonar.h"
 
 namespace ensonify {
@@ -39,7 +41,7 @@ class ForwardLooking {
  public:
   using Config = ForwardLookingConfig;
   static constexpr const char* kComponent = "forward_looking";
-  using Report = HeadReport<msg::Ping>;
+  using Report = HeadReport<msg::Ping, msg::Labels>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -57,7 +59,7 @@ class ForwardLooking {
   /// The configuration outlives the head.
   ForwardLooking(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping> outputs() const;
+  HeadOutputs<msg::Ping, msg::Labels> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -68,6 +70,9 @@ class ForwardLooking {
   msg::Ping ping_message(const PingEvent& event, const SentPing& sent, const Design& design,
                          const echo::Image& image) const;
 
+  msg::Labels labels_of(const PingEvent& event, const Shot& shot, const trace::Mesh& mesh, const Echoed& echoed,
+                        const Design& design, const ArrayReception& reception, double reach_m);
+
   /// Scratch: its contents do not matter.
   struct Memory {
     std::optional<Design> design;  // of the newest ping
@@ -75,6 +80,7 @@ class ForwardLooking {
     ShotMemory shot;
     std::vector<float> sin_beams;
     ArrayEchoes::Memory beams;
+    Labeller::Memory labels;
   };
 
   const Config& config_;
@@ -83,6 +89,8 @@ class ForwardLooking {
   ArrayEchoes echoes_;
   std::vector<float> beam_angle_rad_;                      // azimuth from the head's x axis, positive to starboard
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
+  LabelView label_view_;
+  std::optional<Labeller> labeller_;
   Memory memory_;
 };
 

@@ -103,6 +103,7 @@ struct SidescanConfig : HeadConfig {
     visit("bottom_threshold_db", "dB", in(3, 40),
           "threshold of the bottom track: the first return over the water column", self.bottom_threshold_db);
     HeadParameters::parameters(self, visit);
+    label_kinds(self, visit);
     sound_speed(self, visit);
   }
   static SidescanConfig read(ConfigReader& from, const World& world, const std::string& process);

@@ -105,6 +105,25 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
   return {volume, rays, {config.world->seed, config.process + "/" + channel.name + "/rays"}};
 }
 
+/// Both sides to their first nulls along the track.
+LabelView label_view_of(const LineDesign& line, std::span<const array::Pattern> receive) {
+  LabelView view;
+  view.axes = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitY()};
+  view.sectors = {{-kFarthest_rad, 0.0, &receive[0]}, {0.0, kFarthest_rad, &receive[1]}};
+  view.lobe = {line.first_null, {1.0F, 1.0F}};  // receivers' patterns have it
+  return view;
+}
+
+/// A row for each side, with the two-way width at -3 dB of the line's far field.
+std::vector<label::Row> label_rows_of(const LineDesign& line) {
+  const auto two_way = [&](double sine) {
+    const double one_way = array::power(line.line, line.wavelength_m, sine);
+    return one_way * one_way;
+  };
+  const array::BeamEdges edges = array::half_power_edges(two_way, 0.0, 0.01 * line.first_null);
+  return {{0.0, edges.lower_sine, edges.upper_sine, 0}, {0.0, edges.lower_sine, edges.upper_sine, 1}};
+}
+
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
   detect::FirstBottomSettings settings;
   settings.threshold_db = config.bottom_threshold_db;
@@ -139,12 +158,16 @@ Sidescan::Sidescan(const Config& config, const SidescanChannel& channel, const L
       rays_(rays_of(config, channel, line)),
       echoes_(apertures_of(config, channel, line),
               std::make_shared<const Environment>(*config.world, channel.frequency_hz), config.effects, config.quality),
-      bottom_(bottom_of(config)) {}
+      bottom_(bottom_of(config)),
+      label_rows_(label_rows_of(line)) {
+  if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_of(line, echoes_.receive()));
+}
 
-HeadOutputs<msg::Ping, msg::BottomTrack> Sidescan::outputs() const {
+HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels> Sidescan::outputs() const {
   const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_)["pulse_length_s"].most);
   const auto samples = static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0);
-  return {{"ping", 2 * sizeof(float) * samples + 65536}, {"bottom"}};
+  const std::size_t bytes = 2 * sizeof(float) * samples + 65536;
+  return {{"ping", bytes}, {"bottom"}, {"labels", bytes, config_.labels != LabelKind::kNone}};
 }
 
 SentPing Sidescan::transmit(SimTime, const HeadSettings& settings, const Surroundings&) const {
@@ -185,7 +208,17 @@ Sidescan::Report Sidescan::ping(const PingEvent& event, const SentPing& sent, co
 
   bottom.stamp_ns = event.transmit.count();
   bottom.ping = event.ping;
-  return {{ping_message(event, settings, design, image), std::move(bottom)}, echoed.rays_that_hit > 0};
+  std::optional<msg::Labels> labels;
+  if (labeller_) {
+    const std::vector<float> background =
+        echoes_.expected_background_upa2(design.shot.pulse, design.sampling, memory_.beams);
+    labels = labeller_->labels(sea, shot, mesh, echoed, design.shot,
+                               {label_rows_, design.sampling, background, event.range_m}, memory_.shot, memory_.labels);
+    labels->stamp_ns = event.transmit.count();
+    labels->ping = event.ping;
+  }
+  return {{ping_message(event, settings, design, image), std::move(bottom), std::move(labels)},
+          echoed.rays_that_hit > 0};
 }
 
 msg::Ping Sidescan::ping_message(const PingEvent& event, const HeadSettings& settings, const Design& design,

@@ -7,6 +7,7 @@
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
 #include "components/sonar/head_node.h"
+#include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
 #include "components/sonar/shot_design.h"
 
@@ -22,7 +23,7 @@ class Sidescan {
  public:
   using Config = SidescanConfig;
   static constexpr const char* kComponent = "sidescan";
-  using Report = HeadReport<msg::Ping, msg::BottomTrack>;
+  using Report = HeadReport<msg::Ping, msg::BottomTrack, msg::Labels>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -40,7 +41,7 @@ class Sidescan {
   /// The configuration outlives the head.
   Sidescan(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping, msg::BottomTrack> outputs() const;
+  HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -57,6 +58,7 @@ class Sidescan {
     std::vector<frames::HeadPose> poses;
     ShotMemory shot;
     ApertureEchoes::Memory beams;
+    Labeller::Memory labels;
     BottomFinder::Memory bottom;
   };
   /// What later pings depend on.
@@ -69,6 +71,8 @@ class Sidescan {
   trace::RayDistribution rays_;
   ApertureEchoes echoes_;
   BottomFinder bottom_;
+  std::vector<label::Row> label_rows_;
+  std::optional<Labeller> labeller_;
   Memory memory_;
   State state_;
 };

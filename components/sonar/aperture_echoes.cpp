@@ -67,6 +67,18 @@ const echo::Image& ApertureEchoes::beamform(const Shot& shot, const Echoed& echo
   return memory.image;
 }
 
+std::vector<float> ApertureEchoes::expected_background_upa2(const echo::Pulse& pulse, const echo::Sampling& sampling,
+                                                            const Memory& memory) const {
+  const std::size_t rows = apertures_.patterns.receive.size(), samples = static_cast<std::size_t>(sampling.count);
+  const double noise_upa2 = effects_.noise ? power_of(noise_db(pulse)) : 0.0;
+  std::vector<float> expected(rows * samples, static_cast<float>(noise_upa2));
+  if (!sea_.water_scatters()) return expected;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t k = 0; k < samples; ++k) expected[row * samples + k] += memory.volume_upa2[k * rows + row];
+  }
+  return expected;
+}
+
 /// To the image of mean squares, those of what has phase without speckle too.
 void ApertureEchoes::add_coherent(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                                   const echo::Sampling& sampling, Memory& memory) const {

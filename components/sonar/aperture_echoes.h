@@ -64,6 +64,11 @@ class ApertureEchoes {
     echo::RowBackground background;
   };
 
+  /// Mean square of noise and water column that is expected, aperture by sample. After beamform() with the same memory.
+  std::vector<float> expected_background_upa2(const echo::Pulse& pulse, const echo::Sampling& sampling,
+                                              const Memory& memory) const;
+  std::span<const array::Pattern> receive() const { return apertures_.patterns.receive; }
+
   /// Third stage of a shot: complex envelopes, aperture by sample, uPa rms. In memory.image.
   const echo::Image& beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                               const ApertureReception& reception, Memory& memory) const;

@@ -63,6 +63,32 @@ std::span<const echo::Image> ArrayEchoes::beamform(const Shot& shot, const Echoe
   return memory.images;
 }
 
+std::vector<float> ArrayEchoes::expected_background_upa2(const echo::Pulse& pulse, const ArrayReception& reception,
+                                                         const label::MainLobe& lobe, const Memory& memory) const {
+  double per_element_upa2 = 0.0;
+  if (effects_.noise) {
+    const double density = power_of(sea_.environment().noise_level_db()) * array_.noise_share;
+    per_element_upa2 = (density + power_of(array_.electronic_noise_db)) * pulse.noise_bandwidth_hz;
+  }
+  double squares = 0.0;  // of the weights: what is left of noise that elements do not have in common
+  for (const float weight : wanted_.front().weights)
+    squares += static_cast<double>(weight) * static_cast<double>(weight);
+  const auto samples = static_cast<std::size_t>(reception.sampling.count), beams = reception.sin_beams.size();
+  std::vector<float> expected(beams * samples, static_cast<float>(per_element_upa2 * squares));
+  if (!sea_.water_scatters()) return expected;
+  const auto cells = static_cast<std::size_t>(receiver_.cells());
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const double off = receiver_.cell_sine(static_cast<int>(cell)) - static_cast<double>(reception.sin_beams[beam]);
+      const float power = lobe.at(off);
+      if (power <= 0.0F) continue;
+      for (std::size_t k = 0; k < samples; ++k)
+        expected[beam * samples + k] += power * memory.volume_upa2[k * cells + cell];
+    }
+  }
+  return expected;
+}
+
 echo::Background ArrayEchoes::background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,
                                          const ArrayReception& reception, std::vector<float>& volume_upa2) const {
   echo::Background background;

@@ -15,6 +15,7 @@
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/volume.h"
+#include "kernels/acoustics/label/image.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
 #include "kernels/base/random/stream.h"
 
@@ -71,6 +72,11 @@ class ArrayEchoes {
     std::vector<float> gain, coherent_gain, foreign_gain, volume_upa2;
     echo::LineReceiver::Memory receiver;
   };
+
+  /// Mean square of noise and water column that is expected in the first image, beam by sample: of the water column
+  /// what the beam's main lobe receives, by its power at sines off the axis. After beamform() with the same memory.
+  std::vector<float> expected_background_upa2(const echo::Pulse& pulse, const ArrayReception& reception,
+                                              const label::MainLobe& lobe, const Memory& memory) const;
 
   /// Third stage of a shot: the images, in memory.images.
   std::span<const echo::Image> beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,

@@ -78,6 +78,12 @@ struct PingTiming {
   std::vector<OtherHead> others = {};  // that ping beside it, and are received
 };
 
+/// Labels that a head sends beside its pings.
+enum class LabelKind {
+  kNone,
+  kMasks,  // of objects and their shadows
+};
+
 /// Detail of the seabed that a head's rays see.
 template <>
 struct ParametersOf<trace::LevelOfDetail> {
@@ -111,6 +117,7 @@ struct HeadParameters {
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it receives
   Effects effects;
+  LabelKind labels = LabelKind::kNone;
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
@@ -134,6 +141,13 @@ struct HeadParameters {
     visit("trigger", "trigger of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);
     visit("effects", "each can be switched off alone; no other random draw moves", self.effects);
+  }
+  /// Labels of a head that can make them.
+  template <class Self, class Visit>
+  static void label_kinds(Self& self, Visit&& visit) {
+    visit("labels", "", one_of({{"none", LabelKind::kNone}, {"masks", LabelKind::kMasks}}),
+          "labels/1 beside each ping: masks of objects and of their shadows, boxes, what is visible of each",
+          self.labels);
   }
   /// The sound speed of a head that is given one.
   template <class Self, class Visit>

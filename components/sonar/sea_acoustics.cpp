@@ -169,6 +169,46 @@ HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backsca
       [](const HitSums& a, const HitSums& b) { return a + b; });
 }
 
+void SeaAcoustics::probe(const Shot& shot, const Echoed& echoed, const trace::Mesh& mesh, const trace::Rays& rays,
+                         double range_m, std::uint32_t behind, const ShotMemory& memory, ProbeMemory& probed) const {
+  constexpr float kLeastGrazing = 1e-3F;  // as of echo::SpeckleCells
+  const frames::HeadPose& pose = shot.pose();
+  paths_.trace(mesh, pose, rays, range_m, paths_.refracted() ? &memory.paths : nullptr, probed.hits, behind);
+  const trace::Hits& hits = probed.hits;
+  probed.power.resize(rays.size());
+  array::powers(shot.transmit, part_of(rays.direction_head, 0, rays.size()), hits.path_length_m, probed.power);
+
+  probed.rays.clear();
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    if (hits.hit(i)) probed.rays.push_back(i);
+  }
+  Environment::FacetLaws laws;
+  const seabed::ClassTables& backscatter = environment_->backscatter(mesh.facet_mean_square_slope(), laws);
+  const auto source = power_of(sent_db(shot.source_level_db));
+  const Eigen::Matrix3d enu_from_head = pose.enu_from_head.toRotationMatrix();
+  probed.scatterers.resize(probed.rays.size());
+  for (std::size_t k = 0; k < probed.rays.size(); ++k) {
+    const std::uint32_t i = probed.rays[k];
+    const trace::Hit hit = hits[i];
+    const float sine = std::max(kLeastGrazing, hit.sin_grazing);
+    const frames::Vec3 launched = enu_from_head * rays.direction_head[i].cast<double>();
+    const frames::Vec3 straight = (hit.position_enu_m - pose.position_enu_m) / static_cast<double>(hit.range_m);
+    echo::Scatterer scatterer;
+    scatterer.position_enu_m = hit.position_enu_m;
+    scatterer.bend_enu = (launched - straight).cast<float>();
+    scatterer.slowness_spm = hit.travel_time_s / hit.range_m;
+    scatterer.stretch = hit.path_length_m / hit.range_m;
+    scatterer.spreading = hit.tube_m2 / (hit.range_m * hit.range_m);
+    scatterer.scattered_upa2m2 = static_cast<float>(source * probed.power[i]) *
+                                 backscatter(mesh.contributors()[hit.contributor].sediment, hit.sin_grazing) / sine;
+    scatterer.contributor = hit.contributor;
+    probed.scatterers.set(k, scatterer);
+  }
+  probed.arrivals.clear();
+  echo::add_direct_echoes({frequency_hz_, echoed.absorption_dbpm, echo::Sum::kMeanSquare}, pose.position_enu_m,
+                          probed.scatterers, echoed.receivers, probed.arrivals);
+}
+
 void SeaAcoustics::gains(const array::Pattern& pattern, const frames::HeadPose& pose, const echo::Arrivals& arrivals,
                          const echo::PairedArrivals& paired, const echo::SharedByBeams* shared,
                          std::span<float> gains) const {

@@ -93,10 +93,10 @@ class WaterPaths {
 
   /// trace::Mesh::trace through this water, of which `refracted` is the table.
   void trace(const trace::Mesh& seabed, const frames::HeadPose& head, const trace::Rays& rays, double max_range_m,
-             const refraction::PathTable* refracted, trace::Hits& hits) const {
+             const refraction::PathTable* refracted, trace::Hits& hits, std::uint32_t behind = trace::kNoise) const {
     const auto range_m = static_cast<float>(max_range_m);
-    if (!refracted) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head));
-    seabed.trace(head, rays, range_m, hits, *refracted);
+    if (!refracted) return seabed.trace(head, rays, range_m, hits, sound_speed_mps(head), behind);
+    seabed.trace(head, rays, range_m, hits, *refracted, behind);
   }
 
  private:
@@ -179,6 +179,16 @@ struct ShotMemory {
   echo::Arrivals foreign;  // of other transmissions
 };
 
+/// Memory of SeaAcoustics::probe, where its results lie: hits by ray, and an arrival for each of them that hit.
+struct ProbeMemory {
+  trace::Hits hits;
+  std::vector<std::uint32_t> rays;  // that hit
+  echo::Arrivals arrivals;          // of these: mean squares
+  // Scratch.
+  std::vector<double> power;
+  echo::Scatterers scatterers;
+};
+
 /// The sea for a head of one frequency: seabed, surface, water column and other heads, by the true motion and the true
 /// water. What a head makes of it by its receive patterns, and the noise, are the head's.
 class SeaAcoustics {
@@ -188,6 +198,8 @@ class SeaAcoustics {
                const Quality& quality);
 
   const Environment& environment() const { return *environment_; }
+  /// Whether paths bend.
+  bool refracts() const { return paths_.refracted(); }
   /// The true one, at the head.
   double sound_speed_mps(const frames::HeadPose& pose) const { return paths_.sound_speed_mps(pose); }
 
@@ -202,6 +214,12 @@ class SeaAcoustics {
   /// point, or in the facets of smooth bodies.
   Insonified insonify(const Shot& shot, const trace::Mesh& seabed, const trace::RayDistribution& distribution,
                       const echo::SpeckleCells& cells, double range_m, ShotMemory& memory) const;
+
+  /// Rays of an examination beside the ping, after its echoes(): what each hits within a slant range, `behind` as of
+  /// trace::Mesh, and what comes straight back of it, of a steradian of such rays, before any receive pattern. Smooth
+  /// bodies scatter by their sediment's law here.
+  void probe(const Shot& shot, const Echoed& echoed, const trace::Mesh& mesh, const trace::Rays& rays, double range_m,
+             std::uint32_t behind, const ShotMemory& memory, ProbeMemory& probed) const;
 
   /// Second stage: echoes of seabed and bodies, and those by way of the surface; smooth bodies have direct ones only.
   Echoed echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const;

@@ -10,7 +10,7 @@
 namespace ensonify {
 namespace {
 
-constexpr double kDiffuseSagitta = 0.01;  // of an object's size: its echo has no phase of its own
+constexpr double kDiffuseSagitta = 0.001;  // of an object's size: its echo has no phase of its own
 
 terrain::TileKey key_of(std::int64_t col, std::int64_t row) {
   return {static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)};
@@ -62,6 +62,10 @@ void TileSet::insert(const msg::Object& object) {
   body.sediment = static_cast<std::uint8_t>(object.sediment);
   body.instance = static_cast<std::uint32_t>(object.instance);
   body.label_class = static_cast<std::uint32_t>(object.class_id);
+  body.name = object.name;
+  body.class_name = object.class_name;
+  body.buried = object.buried;
+  body.enu_from_body = frames::quaternion_of(object.enu_from_object);
   scene_.insert_body(static_cast<std::uint32_t>(object.number), std::move(body));
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -78,6 +79,15 @@ void lay(const SceneObject& object, const solids::Solid& solid, const TerrainSou
   message.position_enu_m[2] = rest.height_m;
 }
 
+/// Part of a surface's volume below this height.
+double buried_share(const solids::Surface& surface, const Eigen::AlignedBox3d& box_enu_m, double ground_m) {
+  const double middle_m = surface.mesh.origin_enu_m.z();
+  if (!std::isfinite(ground_m) || ground_m <= box_enu_m.min().z()) return 0.0;
+  const double whole_m3 = solids::volume_below_m3(surface.mesh, box_enu_m.max().z() - middle_m);
+  if (whole_m3 <= 0.0) return 0.0;
+  return std::clamp(solids::volume_below_m3(surface.mesh, ground_m - middle_m) / whole_m3, 0.0, 1.0);
+}
+
 }  // namespace
 
 void refuse(const SceneObject& object, const std::string& why) {
@@ -109,6 +119,7 @@ PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, cons
     placed.surface.mesh.origin_enu_m.z() = placed.message.position_enu_m[2] = ground_m - below_m;
   }
   placed.box_enu_m = box_of(placed.surface.mesh);
+  placed.message.buried = object.place.buried_share.value_or(buried_share(placed.surface, placed.box_enu_m, ground_m));
   const double top_m = placed.box_enu_m.max().z();
   if (std::isfinite(ground_m) && top_m < ground_m)
     refuse(object, fmt::format("lies below the seabed, which is at {:.2f} m there and it ends at {:.2f} m; allowed is "

@@ -32,6 +32,8 @@ __all__ = [
     "PagerDeclaration",
     "Counter",
     "Health",
+    "LabelledObject",
+    "Labels",
     "Mark",
     "NextLine",
     "Coverage",
@@ -472,6 +474,73 @@ class Health(Message):
     state: str = "ok"
     message: str = ""
     counters: list = list_of(Counter)
+
+
+@dataclass(eq=False)
+class LabelledObject(Struct):
+    """An object that could be in a ping's image.
+
+    instance [1]: number in the world, from 1, of all pings and heads
+    name: name in the scenario
+    class_name: class
+    class_id [1]: number of the class, from 1
+    inside [1]: part of the silhouette's solid angle, 0..1, that is within the image
+    visible [1]: part of that, 0..1, that nothing hides
+    occluded [1]: rest of it, which the seabed or another object hides
+    buried [1]: part of the volume that lies below the seabed
+    hit_enu_m [m]: middle of the visible surface, world position
+    range_m [m]: distance from the head at transmission to that middle
+    grazing_rad [rad]: grazing angle, mean over the visible surface
+    aspect_rad [rad]: bearing of the head from the object, clockwise from its own north
+    sediment [1]: sediment class by whose law it scatters
+    smooth: smoothness: its echo follows from its shape
+    box [1]: box round its mask: first beam, first sample, beam and sample after the last; all 0: no mask
+    shadow_box [1]: box round its shadow, of the same form; all 0: no shadow
+    """
+
+    instance: int = 0
+    name: str = ""
+    class_name: str = ""
+    class_id: int = 0
+    inside: float = 0.0
+    visible: float = 0.0
+    occluded: float = 0.0
+    buried: float = 0.0
+    hit_enu_m: tuple = fixed(0.0, 0.0, 0.0)
+    range_m: float = 0.0
+    grazing_rad: float = 0.0
+    aspect_rad: float = 0.0
+    sediment: int = 0
+    smooth: bool = False
+    box: tuple = fixed(0, 0, 0, 0)
+    shadow_box: tuple = fixed(0, 0, 0, 0)
+
+
+@dataclass(eq=False)
+class Labels(Message):
+    """What is where in the image of a ping: masks and shadows of objects. Truth. Sample k stands for times of half a sample period about its own.
+
+    stamp_ns [ns]: time of transmission, sim time, as of the ping
+    ping [1]: ping number of this head, as of the ping
+    beams [1]: rows of the image
+    samples [1]: columns of the image
+    objects: objects within the range and the head's view, by instance
+    mask_run [1]: runs (run x 4) of the objects' own masks, which may overlap: place in objects, beam, first sample, sample after the last
+    layer_run [1]: runs (run x 4) of one mask of all: where several overlap, the one that sends most
+    shadow_run [1]: runs (run x 4) of shadows: place in objects of what casts it, -1: the seabed itself; beam, first sample, sample after the last
+    shadow_db [dB]: depth of the shadow at each sample of the runs, one after the other: what the seabed would send there without objects over what it sends, at most 60; 0 of the seabed's own
+    """
+
+    TYPE = "labels/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    beams: int = 0
+    samples: int = 0
+    objects: list = list_of(LabelledObject)
+    mask_run: np.ndarray = array("i4")
+    layer_run: np.ndarray = array("i4")
+    shadow_run: np.ndarray = array("i4")
+    shadow_db: np.ndarray = array("u1")
 
 
 @dataclass(eq=False)
@@ -1441,6 +1510,7 @@ class Object(Message):
     enu_from_object [1]: rotation [w, x, y, z] from its own axes (x east, y north, z up when not turned)
     smooth: smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle
     sediment [1]: sediment class of all of it
+    buried [1]: part of the volume, 0..1, below the height of the seabed at its middle
     """
 
     TYPE = "object/1"
@@ -1456,6 +1526,7 @@ class Object(Message):
     enu_from_object: tuple = fixed(1.0, 0.0, 0.0, 0.0)
     smooth: bool = False
     sediment: int = 0
+    buried: float = 0.0
 
 
 @dataclass(eq=False)
@@ -1589,6 +1660,7 @@ TYPES = {cls.TYPE: cls for cls in (
     HeadDeclaration,
     PagerDeclaration,
     Health,
+    Labels,
     Mark,
     NextLine,
     Coverage,

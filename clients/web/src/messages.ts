@@ -277,6 +277,62 @@ export interface Health {
   counters: Counter[];
 }
 
+export interface LabelledObject {
+  /** number in the world, from 1, of all pings and heads (1) */
+  instance: number;
+  /** name in the scenario */
+  name: string;
+  /** class */
+  class_name: string;
+  /** number of the class, from 1 (1) */
+  class_id: number;
+  /** part of the silhouette's solid angle, 0..1, that is within the image (1) */
+  inside: number;
+  /** part of that, 0..1, that nothing hides (1) */
+  visible: number;
+  /** rest of it, which the seabed or another object hides (1) */
+  occluded: number;
+  /** part of the volume that lies below the seabed (1) */
+  buried: number;
+  /** middle of the visible surface, world position (m) */
+  hit_enu_m: number[];
+  /** distance from the head at transmission to that middle (m) */
+  range_m: number;
+  /** grazing angle, mean over the visible surface (rad) */
+  grazing_rad: number;
+  /** bearing of the head from the object, clockwise from its own north (rad) */
+  aspect_rad: number;
+  /** sediment class by whose law it scatters (1) */
+  sediment: number;
+  /** smoothness: its echo follows from its shape */
+  smooth: boolean;
+  /** box round its mask: first beam, first sample, beam and sample after the last; all 0: no mask (1) */
+  box: number[];
+  /** box round its shadow, of the same form; all 0: no shadow (1) */
+  shadow_box: number[];
+}
+
+export interface Labels {
+  /** time of transmission, sim time, as of the ping (ns) */
+  stamp_ns: number;
+  /** ping number of this head, as of the ping (1) */
+  ping: number;
+  /** rows of the image (1) */
+  beams: number;
+  /** columns of the image (1) */
+  samples: number;
+  /** objects within the range and the head's view, by instance */
+  objects: LabelledObject[];
+  /** runs (run x 4) of the objects' own masks, which may overlap: place in objects, beam, first sample, sample after the last (1) */
+  mask_run: Numbers<Int32Array>;
+  /** runs (run x 4) of one mask of all: where several overlap, the one that sends most (1) */
+  layer_run: Numbers<Int32Array>;
+  /** runs (run x 4) of shadows: place in objects of what casts it, -1: the seabed itself; beam, first sample, sample after the last (1) */
+  shadow_run: Numbers<Int32Array>;
+  /** depth of the shadow at each sample of the runs, one after the other: what the seabed would send there without objects over what it sends, at most 60; 0 of the seabed's own (dB) */
+  shadow_db: Numbers<Uint8Array>;
+}
+
 export interface Mark {
   /** time of the mark, sim time (ns) */
   stamp_ns: number;
@@ -1052,6 +1108,8 @@ export interface Object {
   smooth: boolean;
   /** sediment class of all of it (1) */
   sediment: number;
+  /** part of the volume, 0..1, below the height of the seabed at its middle (1) */
+  buried: number;
 }
 
 export interface ObjectMesh {
@@ -1162,6 +1220,7 @@ export const TYPES: Record<string, string> = {
   "2cf25c955f742ec4": "head_declaration/1",
   "ec8cf9630d43fc33": "pager_declaration/1",
   "8c49360ea9bfbb63": "health/1",
+  "bf62e1bec5141cea": "labels/1",
   "eed8742b161e86c4": "mark/1",
   "197d1d884c88a73b": "next_line/1",
   "c13186a044162017": "coverage/1",

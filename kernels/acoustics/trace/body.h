@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
+#include <string>
 
+#include "kernels/base/frames/attitude.h"
 #include "kernels/mesh/solids/facet.h"
 
 namespace ensonify::trace {
@@ -15,9 +17,12 @@ struct Body {
   /// Its echo follows from its shape alone (echo/smooth_facet.h), and is heard where rays to its own facets arrive.
   /// Else it scatters as its sediment does, with random phase.
   bool smooth = false;
-  std::uint8_t sediment = 0;      // class
-  std::uint32_t instance = 0;     // of a label
-  std::uint32_t label_class = 0;  // of a label
+  std::uint8_t sediment = 0;  // class
+  // For labels:
+  std::uint32_t instance = 0, label_class = 0;
+  std::string name, class_name;
+  double buried = 0.0;  // part of its volume
+  frames::Quaternion enu_from_body = frames::Quaternion::Identity();
 };
 
 /// A body as a mesh has it.

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace ensonify::trace {
@@ -33,6 +34,12 @@ inline constexpr std::uint32_t kNoise = 0;
 /// Index of the direct echo of a sediment, and of a body by its number.
 constexpr std::uint32_t sediment_contributor(std::uint8_t sediment) { return 1 + kPaths * sediment; }
 constexpr std::uint32_t body_contributor(std::uint32_t body) { return 1 + kPaths * (256 + body); }
+
+/// Whether an index is one of a body's.
+constexpr bool is_body(std::uint32_t contributor) { return contributor >= body_contributor(0); }
+
+/// For rays that go on behind something: behind every body.
+inline constexpr std::uint32_t kAllBodies = std::numeric_limits<std::uint32_t>::max();
 
 /// Index of the same source by a path; noise stays noise.
 constexpr std::uint32_t by_path(std::uint32_t contributor, EchoPath path) {

@@ -24,6 +24,7 @@ enum class Stage : std::uint8_t {
   kDetection,
   kPlacing,
   kMessage,  // samples made and sent
+  kLabels,   // all of them
   // Within beamforming, by the threads that do it.
   kSpread,
   kTransforms,
@@ -31,8 +32,8 @@ enum class Stage : std::uint8_t {
 };
 inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::kNoise) + 1;
 inline constexpr std::array<const char*, kStages> kStageNames{
-    "step",     "probes",    "rays",    "trace",   "weigh",  "merge",      "echoes", "patterns",
-    "beamform", "detection", "placing", "message", "spread", "transforms", "noise"};
+    "step",     "probes",    "rays",    "trace",   "weigh",  "merge",  "echoes",     "patterns",
+    "beamform", "detection", "placing", "message", "labels", "spread", "transforms", "noise"};
 /// Whether a stage is a part of another that several threads share: summed over them, and no event of its own.
 constexpr bool is_part(Stage stage) { return stage >= Stage::kSpread; }
 

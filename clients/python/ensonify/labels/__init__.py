@@ -1,0 +1,82 @@
+"""Labels of pings: which sample of an image belongs to which object, and which lies in its shadow.
+
+A head with `labels: masks` publishes labels/1 beside each ping. Here they become arrays; `python -m ensonify.labels` writes
+them as COCO, YOLO, Pascal VOC, PNG masks or WebDataset shards.
+"""
+from typing import Iterator, NamedTuple
+
+import numpy as np
+
+from ensonify.messages import Labels, Ping
+from ensonify.session import EXIT_BAD_INPUT, RunError
+
+SEABED = -1  # whose shadow it is, of the seabed's own
+
+
+class Labelled(NamedTuple):
+    """A ping and its labels."""
+
+    ping: Ping
+    labels: Labels
+
+
+def labels_topic(ping_topic: str) -> str:
+    """Topic of the labels beside a ping's: eye/labels of eye/ping, side/labels_main of side/ping_main."""
+    process, _, port = ping_topic.partition("/")
+    return f"{process}/labels{port.removeprefix('ping')}"
+
+
+def ping_topics(record) -> list:
+    """Topics of pings that have labels beside them, in the order of the launch file."""
+    topics = record.topics()
+    return [topic for topic in record.topics_of(Ping) if labels_topic(topic) in topics]
+
+
+def labelled(record, topic: str) -> Iterator[Labelled]:
+    """Pings of a topic with their labels, in their order. Raises RunError where the record has no labels for it."""
+    beside = labels_topic(topic)
+    if beside not in record.topics():
+        known = ", ".join(ping_topics(record)) or "none: a head makes labels with `labels: masks`"
+        raise RunError(f"{record.file}: has no {beside}; labelled are {known}", EXIT_BAD_INPUT)
+    waiting: dict = {}  # by ping number
+    for message in record.messages(topic, beside):
+        content = message.content
+        other = waiting.pop(content.ping, None)
+        if other is None:
+            waiting[content.ping] = content
+        else:
+            yield Labelled(content, other) if isinstance(other, Labels) else Labelled(other, content)
+
+
+def _fill(runs: np.ndarray, wanted: int, into: np.ndarray) -> np.ndarray:
+    for whose, beam, first, end in runs:
+        if whose == wanted:
+            into[beam, first:end] = True
+    return into
+
+
+def mask(labels: Labels, place: int) -> np.ndarray:
+    """Own mask of an object, by its place in labels.objects: beams x samples, bool. Masks of two objects may overlap."""
+    return _fill(labels.mask_run, place, np.zeros((labels.beams, labels.samples), bool))
+
+
+def shadow(labels: Labels, place: int) -> np.ndarray:
+    """Shadow of an object by its place in labels.objects, or of the seabed itself (SEABED): beams x samples, bool."""
+    return _fill(labels.shadow_run, place, np.zeros((labels.beams, labels.samples), bool))
+
+
+def shadow_db(labels: Labels) -> np.ndarray:
+    """Depth of all shadows in dB, 0 where there is none: beams x samples, uint8."""
+    depth, at = np.zeros((labels.beams, labels.samples), np.uint8), 0
+    for _, beam, first, end in labels.shadow_run:
+        depth[beam, first:end] = labels.shadow_db[at:at + end - first]
+        at += end - first
+    return depth
+
+
+def layer(labels: Labels) -> np.ndarray:
+    """One mask of all: the instance that sends most in each cell, 0 where there is none: beams x samples, int32."""
+    cells = np.zeros((labels.beams, labels.samples), np.int32)
+    for place, beam, first, end in labels.layer_run:
+        cells[beam, first:end] = labels.objects[place].instance
+    return cells

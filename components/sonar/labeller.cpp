@@ -1,0 +1,316 @@
+#include "components/sonar/labeller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "kernels/acoustics/label/masks.h"
+#include "kernels/acoustics/label/shadows.h"
+#include "kernels/base/profile/profile.h"
+#include "kernels/water/refraction/eigenray.h"
+
+namespace ensonify {
+namespace {
+
+constexpr int kSilhouette = 32;          // rays each way over a body's extent
+constexpr int kStripsPerCell = 16;       // where a body is
+constexpr int kFewestStrips = 8;         // of all cells of a sector
+constexpr int kStepsOfSector = 96;       // of a strip's first rays
+constexpr int kStepsOfBody = 12;         // more of them where a body is
+constexpr double kSeabedSamples = 16.0;  // between a strip's neighbours on the seabed, at most
+
+std::array<std::int64_t, 4> with(std::array<std::int64_t, 4> box, const label::Run& run) {
+  const std::array<std::int64_t, 4> one{run.row, run.first, run.row + 1, run.end};
+  if (box[2] == 0) return one;
+  return {std::min(box[0], one[0]), std::min(box[1], one[1]), std::max(box[2], one[2]), std::max(box[3], one[3])};
+}
+
+/// Rows of four numbers: whose, row, first, end.
+template <class Place>
+msg::Array<std::int32_t> rows_of(std::span<const label::Run> runs, const Place& place) {
+  msg::Array<std::int32_t> rows({runs.size(), 4});
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    rows(i, 0) = place(runs[i].whose);
+    rows(i, 1) = runs[i].row;
+    rows(i, 2) = runs[i].first;
+    rows(i, 3) = runs[i].end;
+  }
+  return rows;
+}
+
+/// Direction in which a path leaves for a place, in the head's frame: as straight, turned down or up by the bending of
+/// the path to it.
+Eigen::Vector3d direction_to(const SeaAcoustics& sea, const frames::HeadPose& pose, const frames::Vec3& place_enu_m) {
+  frames::Vec3 off = place_enu_m - pose.position_enu_m;
+  const double across_m = off.head<2>().norm(), depth_m = -pose.position_enu_m.z();
+  if (const auto path = sea.refracts() && across_m > 0.0
+                            ? refraction::eigenray(sea.environment().profile(), depth_m, across_m, depth_m - off.z())
+                            : std::nullopt) {
+    const double down = path->launch_depression_rad, away_m = off.norm();
+    const frames::Vec2 outwards = off.head<2>() / across_m;
+    off << away_m * std::cos(down) * outwards, -away_m * std::sin(down);
+  }
+  return pose.enu_from_head.conjugate() * off;
+}
+
+}  // namespace
+
+msg::Labels Labeller::labels(const SeaAcoustics& sea, const Shot& shot, const trace::Mesh& mesh, const Echoed& echoed,
+                             const ShotDesign& design, const LabelledImage& image, const ShotMemory& shot_memory,
+                             Memory& memory) const {
+  const profile::Span span(profile::Stage::kLabels);
+  const Ping ping{sea, shot, mesh, echoed, image, shot_memory, memory};
+  memory.forget_gone(mesh);
+  std::vector<Candidate> bodies = find_bodies(ping);
+  const std::vector<label::Strip> strips = strips_of(ping, bodies);
+  const double period_s = image.sampling.period_s;
+  const label::Fineness fineness{.body_s = period_s, .seabed_s = kSeabedSamples * period_s, .halvings = 9};
+  const label::TraceEchoes tracer = [&](const trace::Rays& rays, bool through, std::vector<label::RayEcho>& echoes) {
+    trace(ping, rays, through, echoes);
+  };
+  label::trace_strips(view_.axes, strips, fineness, tracer, memory.points);
+  const label::Masks masks = label::find_masks(strips, memory.points, fineness, image.rows, image.sampling);
+  const label::Shadows shadows =
+      label::find_shadows(strips, memory.points, fineness, image.rows, view_.lobe, image.sampling,
+                          image.background_upa2, masks.own, {.pulse_s = design.pulse.equivalent_length_s()});
+
+  msg::Labels labels;
+  labels.beams = static_cast<std::int64_t>(image.rows.size());
+  labels.samples = image.sampling.count;
+  std::map<std::uint32_t, std::int32_t> places;  // in the list of objects
+  const auto place = [&](std::uint32_t whose) { return whose == trace::kNoise ? -1 : places.at(whose); };
+  for (const auto* runs : {&masks.own, &shadows.runs}) {
+    for (const label::Run& run : *runs) places.emplace(run.whose, 0);
+  }
+  std::ranges::sort(bodies, {}, [](const Candidate& one) { return one.object.instance; });
+  for (Candidate& one : bodies) {
+    if (!one.seen && !places.contains(one.body->contributor)) continue;
+    places[one.body->contributor] = static_cast<std::int32_t>(labels.objects.size());
+    labels.objects.push_back(std::move(one.object));
+  }
+  for (const label::Run& run : masks.own) {
+    auto& box = labels.objects[static_cast<std::size_t>(place(run.whose))].box;
+    box = with(box, run);
+  }
+  for (const label::Run& run : shadows.runs) {
+    if (run.whose == trace::kNoise) continue;
+    auto& box = labels.objects[static_cast<std::size_t>(place(run.whose))].shadow_box;
+    box = with(box, run);
+  }
+  labels.mask_run = rows_of(masks.own, place);
+  labels.layer_run = rows_of(masks.layer, place);
+  labels.shadow_run = rows_of(shadows.runs, place);
+  labels.shadow_db = msg::Array<std::uint8_t>::of(shadows.depth_db);
+  return labels;
+}
+
+void Labeller::Memory::forget_gone(const trace::Mesh& mesh) {
+  const auto bodies = mesh.bodies();
+  std::erase_if(alone, [&](const auto& kept) {
+    const auto there = std::ranges::find(bodies, kept.first, &trace::ShownBody::contributor);
+    return there == bodies.end() || there->body != kept.second.body;
+  });
+}
+
+const trace::Mesh& Labeller::Memory::of(const trace::ShownBody& body) {
+  const auto [at, is_new] = alone.try_emplace(body.contributor);
+  if (is_new) {
+    trace::Scene scene(body.box_enu_m.center().head<2>());
+    scene.insert_body(0, *body.body);
+    at->second = {body.body, scene.adapted()};
+  }
+  return at->second.mesh;
+}
+
+/// Bodies whose extent meets the image.
+std::vector<Labeller::Candidate> Labeller::find_bodies(const Ping& ping) const {
+  const frames::HeadPose& pose = ping.shot.pose();
+  std::vector<Candidate> bodies;
+  for (const trace::ShownBody& body : ping.mesh.bodies()) {
+    const frames::Vec3 middle = body.box_enu_m.center();
+    const double radius_m = 0.5 * body.box_enu_m.diagonal().norm(), away_m = (middle - pose.position_enu_m).norm();
+    if (away_m - radius_m > ping.image.range_m) continue;
+    const double half = away_m > 1.1 * radius_m ? 1.02 * std::asin(radius_m / away_m) + 1e-3 : 2.0;
+    const Eigen::Vector3f to = direction_to(ping.sea, pose, middle).normalized().cast<float>();
+    const auto sine = static_cast<double>(to.dot(view_.axes.axis));
+    const double angle_rad =
+        std::atan2(static_cast<double>(to.dot(view_.axes.quarter)), static_cast<double>(to.dot(view_.axes.zero)));
+    const double across = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+    const double half_rad =
+        std::min(across > half ? half / (across - half * half) : std::numbers::pi, std::numbers::pi);
+    Candidate one{&body, std::max(-1.0, sine - half), std::min(1.0, sine + half), angle_rad - half_rad,
+                  angle_rad + half_rad};
+    const std::vector<Patch> within = within_image(ping, {one.lower, one.upper, one.first_rad, one.last_rad});
+    if (within.empty()) continue;
+    examine(ping, within, one);
+    bodies.push_back(std::move(one));
+  }
+  return bodies;
+}
+
+/// Parts of a patch that rows receive from.
+std::vector<Labeller::Patch> Labeller::within_image(const Ping& ping, const Patch& patch) const {
+  std::vector<Patch> within;
+  for (std::size_t number = 0; number < view_.sectors.size(); ++number) {
+    double lower = 1.0, upper = -1.0;
+    for (const label::Row& row : ping.image.rows) {
+      if (row.sector == static_cast<int>(number))
+        lower = std::min(lower, row.lower), upper = std::max(upper, row.upper);
+    }
+    const LabelSector& sector = view_.sectors[number];
+    for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {
+      const Patch part{std::max(patch.lower, lower), std::min(patch.upper, upper),
+                       std::max(patch.first_rad + turn, sector.first_rad),
+                       std::min(patch.last_rad + turn, sector.last_rad)};
+      if (!part.empty()) within.push_back(part);
+    }
+  }
+  return within;
+}
+
+trace::Rays Labeller::rays_over(const Patch& patch) const {
+  trace::Rays rays;
+  for (int i = 0; i < kSilhouette; ++i) {
+    const double sine = std::lerp(patch.lower, patch.upper, (i + 0.5) / kSilhouette);
+    for (int j = 0; j < kSilhouette; ++j) {
+      const double angle_rad = std::lerp(patch.first_rad, patch.last_rad, (j + 0.5) / kSilhouette);
+      rays.push_back({view_.axes.direction(sine, angle_rad), 1.0F});
+    }
+  }
+  return rays;
+}
+
+/// Rays over its extent with the body alone; then within the image, with the body alone and with all that is there.
+void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const {
+  ProbeMemory& probed = ping.memory.probed;
+  const auto hits_of = [&](const trace::Mesh& mesh, const trace::Rays& rays) -> const trace::Hits& {
+    ping.sea.probe(ping.shot, ping.echoed, mesh, rays, ping.image.range_m, trace::kNoise, ping.shot_memory, probed);
+    return probed.hits;
+  };
+  const trace::Mesh& alone = ping.memory.of(*candidate.body);
+  const Patch extent{candidate.lower, candidate.upper, candidate.first_rad, candidate.last_rad};
+  constexpr double kPerRay = 1.0 / (kSilhouette * kSilhouette);
+  double whole_sr = 0.0, inside_sr = 0.0, visible_sr = 0.0;
+  {
+    const trace::Rays rays = rays_over(extent);
+    const trace::Hits& hits = hits_of(alone, rays);
+    double lower = 1.0, upper = -1.0, first = std::numeric_limits<double>::max(), last = -first;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!hits.hit(i)) continue;
+      whole_sr += kPerRay * extent.solid_angle_sr();
+      const double sine =
+          std::lerp(extent.lower, extent.upper, (static_cast<double>(i / kSilhouette) + 0.5) / kSilhouette);
+      const double angle_rad =
+          std::lerp(extent.first_rad, extent.last_rad, (static_cast<double>(i % kSilhouette) + 0.5) / kSilhouette);
+      lower = std::min(lower, sine), upper = std::max(upper, sine);
+      first = std::min(first, angle_rad), last = std::max(last, angle_rad);
+    }
+    if (whole_sr > 0.0) {  // it may reach a step further than the rays that hit it
+      const double step = (extent.upper - extent.lower) / kSilhouette;
+      const double step_rad = (extent.last_rad - extent.first_rad) / kSilhouette;
+      candidate.lower = lower - step, candidate.upper = upper + step;
+      candidate.first_rad = first - step_rad, candidate.last_rad = last + step_rad;
+    }
+  }
+  double visible = 0.0, grazing_rad = 0.0;
+  frames::Vec3 middle = frames::Vec3::Zero();
+  for (const Patch& patch : within) {
+    const trace::Rays rays = rays_over(patch);
+    std::vector<bool> silhouette(rays.size());
+    const trace::Hits& of_alone = hits_of(alone, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) silhouette[i] = of_alone.hit(i);
+    const trace::Hits& hits = hits_of(ping.mesh, rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (!silhouette[i]) continue;
+      inside_sr += kPerRay * patch.solid_angle_sr();
+      if (hits.contributor[i] != candidate.body->contributor) continue;
+      visible_sr += kPerRay * patch.solid_angle_sr();
+      ++visible;
+      middle += hits.position_enu_m[i];
+      grazing_rad += std::asin(std::min(1.0, static_cast<double>(hits.sin_grazing[i])));
+    }
+  }
+  candidate.seen = inside_sr > 0.0;
+
+  const trace::Body& body = *candidate.body->body;
+  const frames::Vec3& head = ping.shot.pose().position_enu_m;
+  msg::LabelledObject& object = candidate.object;
+  object.instance = body.instance;
+  object.name = body.name;
+  object.class_name = body.class_name;
+  object.class_id = body.label_class;
+  object.inside = whole_sr > 0.0 ? std::min(1.0, inside_sr / whole_sr) : 0.0;
+  object.visible = candidate.seen ? visible_sr / inside_sr : 0.0;
+  object.occluded = candidate.seen ? 1.0 - object.visible : 0.0;
+  object.buried = body.buried;
+  middle = visible > 0.0 ? frames::Vec3(middle / visible) : frames::Vec3(candidate.body->box_enu_m.center());
+  object.hit_enu_m = {middle.x(), middle.y(), middle.z()};
+  object.range_m = (middle - head).norm();
+  object.grazing_rad = visible > 0.0 ? grazing_rad / visible : 0.0;
+  const frames::Vec3 towards = body.enu_from_body.conjugate() * (head - middle);
+  object.aspect_rad = std::atan2(towards.x(), towards.y());
+  object.sediment = body.sediment;
+  object.smooth = body.smooth;
+}
+
+/// Of all rows, narrow ones where bodies are; beside the outermost cells as far as their main lobes reach.
+std::vector<label::Strip> Labeller::strips_of(const Ping& ping, std::span<const Candidate> bodies) const {
+  std::vector<label::Strip> strips;
+  for (int number = 0; number < static_cast<int>(view_.sectors.size()); ++number) {
+    const LabelSector& sector = view_.sectors[static_cast<std::size_t>(number)];
+    std::vector<std::pair<double, double>> cells;
+    for (const label::Row& row : ping.image.rows) {
+      if (row.sector == number) cells.emplace_back(row.lower, row.upper);
+    }
+    const int fewest = std::max(1, kFewestStrips / static_cast<int>(cells.size()));
+    const auto [lowest, highest] = std::pair(cells.front().first, cells.back().second);
+    for (const double beyond : {0.5, 1.0}) {  // cells beside the image
+      const double step = 0.5 * view_.lobe.null;
+      cells.emplace_back(lowest - 2.0 * beyond * step, lowest - (2.0 * beyond - 1.0) * step);
+      cells.emplace_back(highest + (2.0 * beyond - 1.0) * step, highest + 2.0 * beyond * step);
+    }
+    for (const auto& [from, to] : cells) {
+      const double lower = std::max(-1.0, from), upper = std::min(1.0, to);
+      if (!(upper > lower)) continue;
+      std::vector<double> also;
+      for (const Candidate& one : bodies) {
+        if (one.upper < lower - (upper - lower) || one.lower > upper + (upper - lower)) continue;
+        for (int i = 0; i <= kStepsOfBody; ++i) {
+          const double angle = std::lerp(one.first_rad, one.last_rad, static_cast<double>(i) / kStepsOfBody);
+          also.push_back(std::remainder(angle, 2.0 * std::numbers::pi));
+        }
+      }
+      const int count = also.empty() ? fewest : kStripsPerCell;
+      const double width = (upper - lower) / count;
+      for (int i = 0; i < count; ++i)
+        strips.push_back(
+            {lower + (i + 0.5) * width, width, sector.first_rad, sector.last_rad, number, kStepsOfSector, also});
+    }
+  }
+  return strips;
+}
+
+void Labeller::trace(const Ping& ping, const trace::Rays& rays, bool through_bodies,
+                     std::vector<label::RayEcho>& echoes) const {
+  ProbeMemory& probed = ping.memory.probed;
+  ping.sea.probe(ping.shot, ping.echoed, ping.mesh, rays, ping.image.range_m,
+                 through_bodies ? trace::kAllBodies : trace::kNoise, ping.shot_memory, probed);
+  echoes.assign(rays.size(), {});
+  for (std::size_t k = 0; k < probed.rays.size(); ++k) {
+    const Eigen::Vector3f direction = probed.arrivals.direction_head[k];
+    const auto angle = std::atan2(direction.dot(view_.axes.quarter), direction.dot(view_.axes.zero));
+    const auto sector = std::ranges::find_if(view_.sectors, [&](const LabelSector& of) {
+      return static_cast<double>(angle) >= of.first_rad && static_cast<double>(angle) <= of.last_rad;
+    });
+    const auto time_s = static_cast<float>(probed.arrivals.time_s[k]);
+    const float amplitude = sector == view_.sectors.end()
+                                ? 0.0F
+                                : sector->receive->amplitude(direction, probed.hits.path_length_m[probed.rays[k]]);
+    echoes[probed.rays[k]] = {probed.hits.contributor[probed.rays[k]], time_s, direction.dot(view_.axes.axis),
+                              amplitude * amplitude * probed.arrivals.pressure_re_upa[k]};
+  }
+}
+
+}  // namespace ensonify

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "components/sonar/sea_acoustics.h"
+#include "components/sonar/shot_design.h"
+#include "kernels/acoustics/label/image.h"
+#include "kernels/acoustics/label/strips.h"
+#include "messages/labels.h"
+
+namespace ensonify {
+
+/// Directions that some rows of an image receive from, and how.
+struct LabelSector {
+  double first_rad = 0.0, last_rad = 0.0;   // about the axis
+  const array::Pattern* receive = nullptr;  // of one transducer; of a line an element's
+};
+
+/// What labels know of a head.
+struct LabelView {
+  label::Axes axes;
+  std::vector<LabelSector> sectors;
+  label::MainLobe lobe;  // of a row, besides the sector's pattern
+};
+
+/// Image that is labelled.
+struct LabelledImage {
+  std::span<const label::Row> rows;
+  echo::Sampling sampling;
+  std::span<const float> background_upa2;  // expected of noise and water column: row by sample
+  double range_m = 0.0;                    // of rays
+};
+
+/// Labels of a ping's image, from rays of their own through the ping's scene, water and motion
+/// (kernels/acoustics/label): nothing is drawn, so that neither speckle nor noise changes them.
+class Labeller {
+ public:
+  explicit Labeller(LabelView view) : view_(std::move(view)) {}
+
+  /// Memory of the caller's: bodies without their surroundings, kept while they are there, and scratch.
+  class Memory {
+    friend Labeller;
+    struct Alone {
+      std::shared_ptr<const trace::Body> body;
+      trace::Mesh mesh;
+    };
+    std::map<std::uint32_t, Alone> alone;  // by contributor
+    ProbeMemory probed;
+    std::vector<std::vector<label::Point>> points;
+
+    void forget_gone(const trace::Mesh& mesh);
+    const trace::Mesh& of(const trace::ShownBody& body);
+  };
+
+  /// After the shot's echoes. Its stamp and number are the caller's to add.
+  msg::Labels labels(const SeaAcoustics& sea, const Shot& shot, const trace::Mesh& mesh, const Echoed& echoed,
+                     const ShotDesign& design, const LabelledImage& image, const ShotMemory& shot_memory,
+                     Memory& memory) const;
+
+ private:
+  /// A body that may be in the image.
+  struct Candidate {
+    const trace::ShownBody* body;
+    double lower, upper;         // sines of its silhouette ...
+    double first_rad, last_rad;  // ... and angles
+    bool seen = false;           // by one of the rays over its silhouette
+    msg::LabelledObject object = {};
+  };
+  /// Directions in sine and angle.
+  struct Patch {
+    double lower, upper, first_rad, last_rad;
+
+    bool empty() const { return !(upper > lower && last_rad > first_rad); }
+    double solid_angle_sr() const { return (upper - lower) * (last_rad - first_rad); }
+  };
+  struct Ping {
+    const SeaAcoustics& sea;
+    const Shot& shot;
+    const trace::Mesh& mesh;
+    const Echoed& echoed;
+    const LabelledImage& image;
+    const ShotMemory& shot_memory;
+    Memory& memory;
+  };
+
+  std::vector<Candidate> find_bodies(const Ping& ping) const;
+  std::vector<Patch> within_image(const Ping& ping, const Patch& patch) const;
+  trace::Rays rays_over(const Patch& patch) const;
+  void examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const;
+  std::vector<label::Strip> strips_of(const Ping& ping, std::span<const Candidate> bodies) const;
+  void trace(const Ping& ping, const trace::Rays& rays, bool through_bodies, std::vector<label::RayEcho>& echoes) const;
+
+  LabelView view_;
+};
+
+}  // namespace ensonify

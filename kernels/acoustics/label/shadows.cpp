@@ -1,0 +1,175 @@
+#include "kernels/acoustics/label/shadows.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace ensonify::label {
+namespace {
+
+constexpr float kOwnShadow = 0.25F;  // of the lobe that the seabed covers, at most: -6 dB
+
+/// What a body blocks of a sample.
+struct Blocked {
+  std::int32_t sample;
+  std::uint32_t body;
+  float level_upa2;
+};
+
+/// A strip by samples.
+struct Profile {
+  std::vector<float> seabed_upa2;  // without bodies
+  std::vector<bool> lit;           // the seabed is there
+  std::vector<Blocked> blocked;
+  double sine = 0.0;  // of arrival, mean
+};
+
+/// Shares the seabed between two neighbours out to the samples between them.
+void add_between(const Strip& strip, const Point& a, const Point& b, const echo::Sampling& sampling,
+                 double samples_per_period, Profile& profile) {
+  const double sent =
+      0.5 * static_cast<double>(a.seabed.level_upa2 + b.seabed.level_upa2) * (b.angle_rad - a.angle_rad) * strip.width;
+  const auto at = [&](const RayEcho& echo) { return (echo.time_s - sampling.start_s) / sampling.period_s + 0.5; };
+  const auto [from, to] = std::minmax({at(a.seabed), at(b.seabed)});
+  const double length = std::max(to - from, 1e-6);
+  // A gap that is narrower than the edge in it is half of either side's.
+  std::array<std::uint32_t, 2> by{trace::kNoise, trace::kNoise};
+  if (trace::is_body(a.first.contributor)) by[0] = a.first.contributor;
+  if (trace::is_body(b.first.contributor)) by[1] = b.first.contributor;
+  const auto first = std::max(0, static_cast<std::int32_t>(std::floor(from)));
+  const auto end = std::min(sampling.count, static_cast<std::int32_t>(std::floor(to)) + 1);
+  for (std::int32_t k = first; k < end; ++k) {
+    const double part = std::min(to, k + 1.0) - std::max(from, static_cast<double>(k));
+    const auto level =
+        static_cast<float>(std::max(0.0, to - from > 1e-6 ? part / length : 1.0) * sent * samples_per_period);
+    profile.seabed_upa2[static_cast<std::size_t>(k)] += level;
+    profile.lit[static_cast<std::size_t>(k)] = true;
+    for (const std::uint32_t body : by) {
+      if (body != trace::kNoise) profile.blocked.push_back({k, body, 0.5F * level});
+    }
+  }
+}
+
+Profile profile_of(const Strip& strip, std::span<const Point> points, const Fineness& fineness,
+                   const echo::Sampling& sampling, double pulse_s) {
+  Profile profile;
+  profile.seabed_upa2.resize(static_cast<std::size_t>(sampling.count));
+  profile.lit.resize(profile.seabed_upa2.size());
+  profile.sine = strip.sine;
+  double sum = 0.0;
+  int hits = 0;
+  for (const Point& point : points) {
+    if (!point.seabed.hit()) continue;
+    sum += static_cast<double>(point.seabed.sine);
+    ++hits;
+  }
+  if (hits > 0) profile.sine = sum / hits;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    if (adjoin(points[i].seabed, points[i + 1].seabed, fineness.seabed_s))
+      add_between(strip, points[i], points[i + 1], sampling, pulse_s / sampling.period_s, profile);
+  }
+  return profile;
+}
+
+struct OfRow {
+  std::vector<Run> runs;
+  std::vector<std::uint8_t> depth_db;
+
+  void add(std::uint32_t whose, std::int32_t row, std::int32_t sample, double db) {
+    if (!runs.empty() && runs.back().whose == whose && runs.back().end == sample) {
+      ++runs.back().end;
+    } else {
+      runs.push_back({whose, row, sample, sample + 1});
+    }
+    depth_db.push_back(static_cast<std::uint8_t>(std::lround(db)));
+  }
+};
+
+/// The first of the bodies that block most.
+std::uint32_t most_of(std::span<const Blocked> blocked) {
+  std::uint32_t whose = trace::kNoise;
+  float most = 0.0F;
+  for (std::size_t i = 0; i < blocked.size();) {
+    float sum = 0.0F;
+    const std::uint32_t body = blocked[i].body;
+    for (; i < blocked.size() && blocked[i].body == body; ++i) sum += blocked[i].level_upa2;
+    if (sum > most) most = sum, whose = body;
+  }
+  return whose;
+}
+
+}  // namespace
+
+Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<Point>> points,
+                     const Fineness& fineness, std::span<const Row> rows, const MainLobe& lobe,
+                     const echo::Sampling& sampling, std::span<const float> background_upa2, std::span<const Run> own,
+                     const ShadowRule& rule) {
+  const auto count = static_cast<std::size_t>(sampling.count);
+  std::vector<Profile> profiles(strips.size());
+  tbb::parallel_for(std::size_t{0}, strips.size(), [&](std::size_t s) {
+    profiles[s] = profile_of(strips[s], points[s], fineness, sampling, rule.pulse_s);
+  });
+  std::vector<std::vector<Run>> masks(rows.size());
+  for (const Run& run : own) masks[static_cast<std::size_t>(run.row)].push_back(run);
+
+  const double least = std::pow(10.0, 0.1 * rule.least_db), most = std::pow(10.0, 0.1 * rule.most_db);
+  std::vector<OfRow> found(rows.size());
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t r) {
+    std::vector<float> without(count), covered(count);
+    std::vector<Blocked> blocked;
+    float all = 0.0F;
+    for (std::size_t s = 0; s < strips.size(); ++s) {
+      if (strips[s].sector != rows[r].sector) continue;
+      const Profile& profile = profiles[s];
+      const float power = lobe.at(profile.sine - rows[r].axis);
+      if (power <= 0.0F) continue;
+      const float weight = power * static_cast<float>(strips[s].width);
+      all += weight;
+      for (std::size_t k = 0; k < count; ++k) {
+        without[k] += power * profile.seabed_upa2[k];
+        covered[k] += profile.lit[k] ? weight : 0.0F;
+      }
+      for (Blocked of : profile.blocked) {
+        of.level_upa2 *= power;
+        blocked.push_back(of);
+      }
+    }
+    if (all <= 0.0F) return;
+    std::ranges::stable_sort(blocked, {}, [](const Blocked& of) { return std::pair(of.sample, of.body); });
+    std::vector<bool> masked(count);
+    for (const Run& run : masks[r]) std::fill(masked.begin() + run.first, masked.begin() + run.end, true);
+
+    const std::span<const float> background = background_upa2.subspan(r * count, count);
+    const auto lit = [&](std::size_t k) { return covered[k] > kOwnShadow * all; };
+    std::size_t last = count;
+    while (last > 0 && !lit(last - 1)) --last;
+    bool answered = false;  // the last that was lit, over the background
+    auto at = blocked.begin();
+    for (std::size_t k = 0; k < last; ++k) {
+      const auto sample = static_cast<std::int32_t>(k);
+      const auto first = at;
+      double missing = 0.0;
+      for (; at != blocked.end() && at->sample == sample; ++at) missing += static_cast<double>(at->level_upa2);
+      if (lit(k)) answered = without[k] > background[k];
+      if (masked[k]) continue;
+      if (!lit(k)) {
+        if (answered) found[r].add(trace::kNoise, static_cast<std::int32_t>(r), sample, 0.0);
+        continue;
+      }
+      const double all_of_it = static_cast<double>(without[k]), left = std::max(all_of_it - missing, all_of_it / most);
+      if (first == at || !answered || all_of_it < least * left) continue;
+      found[r].add(most_of({first, at}), static_cast<std::int32_t>(r), sample, 10.0 * std::log10(all_of_it / left));
+    }
+  });
+
+  Shadows shadows;
+  for (OfRow& of : found) {
+    std::ranges::copy(of.runs, std::back_inserter(shadows.runs));
+    std::ranges::copy(of.depth_db, std::back_inserter(shadows.depth_db));
+  }
+  return shadows;
+}
+
+}  // namespace ensonify::label
