@@ -78,6 +78,7 @@ struct ScanningConfig : HeadConfig {
     visit("electronic_noise_db", "dB", in(-200, 150), "electronic noise as sound in the water, re 1 uPa^2/Hz",
           self.electronic_noise_db);
     HeadParameters::parameters(self, visit);
+    label_kinds(self, visit);
     sound_speed(self, visit);
   }
   static ScanningConfig read(ConfigReader& from, const World& world, const std::string& process);

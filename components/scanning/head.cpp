@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "components/sonar/head_motion.h"
 #include "components/sonar/ranged_pulse.h"
@@ -69,6 +70,16 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
   return {volume, config.quality.ray_settings(resolution_m(config)), {config.world->seed, config.process + "/rays"}};
 }
 
+/// All elevations of the main lobe.
+LabelView label_view_of(const ScanningConfig& config, const LineDesign& line, const array::Pattern& receive) {
+  const double half_rad = std::asin(std::min(1.0, 1.0 / tall_in_waves(config)));
+  LabelView view;
+  view.axes = {Eigen::Vector3f::UnitY(), Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ()};
+  view.sectors = {{config.tilt_rad - half_rad, config.tilt_rad + half_rad, &receive}};
+  view.lobe = aperture_lobe(line);
+  return view;
+}
+
 }  // namespace
 
 array::Pattern scanning_pattern(const ScanningConfig& config) { return pattern_of(config, narrow_line(config)); }
@@ -87,10 +98,14 @@ Scanning::Scanning(const Config& config, const LineDesign& line)
     : config_(config),
       rays_(rays_of(config, line)),
       echoes_(apertures_of(config, line), std::make_shared<const Environment>(*config.world, config.frequency_hz),
-              config.effects, config.quality) {}
+              config.effects, config.quality),
+      label_row_(aperture_row(line)) {
+  if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_of(config, line, echoes_.receive().front()));
+}
 
-HeadOutputs<msg::Ping> Scanning::outputs() const {
-  return {{"ping", static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536}};
+HeadOutputs<msg::Ping, msg::Labels> Scanning::outputs() const {
+  const std::size_t bytes = static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536;
+  return {{"ping", bytes}, {"labels", bytes, config_.labels != LabelKind::kNone}};
 }
 
 SentPing Scanning::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
@@ -136,7 +151,17 @@ Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, co
   const echo::Image& image =
       echoes_.beamform(shot, echoed, design.shot, {event.number(), design.ranged.sampling, foreign}, memory_.beams);
 
-  return {.messages = {ping_message(event, sent, design, angle_rad, image)},
+  std::optional<msg::Labels> labels;
+  if (labeller_) {
+    const std::vector<float> background =
+        echoes_.expected_background_upa2(design.shot.pulse, design.ranged.sampling, memory_.beams);
+    labels = labeller_->labels(sea, shot, mesh, echoed, design.shot,
+                               {{&label_row_, 1}, design.ranged.sampling, background, event.range_m}, memory_.shot,
+                               memory_.labels);
+    labels->stamp_ns = event.transmit.count();
+    labels->ping = event.ping;
+  }
+  return {.messages = {ping_message(event, sent, design, angle_rad, image), std::move(labels)},
           .trouble = no_echo_reason(echoed.summary(shot, event.range_m, around.seabed))};
 }
 

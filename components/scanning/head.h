@@ -6,6 +6,7 @@
 #include "components/scanning/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/head_node.h"
+#include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
 #include "components/sonar/shot_design.h"
 
@@ -21,7 +22,7 @@ class Scanning {
  public:
   using Config = ScanningConfig;
   static constexpr const char* kComponent = "scanning";
-  using Report = HeadReport<msg::Ping>;
+  using Report = HeadReport<msg::Ping, msg::Labels>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -39,7 +40,7 @@ class Scanning {
   /// The configuration outlives the head.
   Scanning(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping> outputs() const;
+  HeadOutputs<msg::Ping, msg::Labels> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -57,11 +58,14 @@ class Scanning {
     std::vector<frames::HeadPose> poses;
     ShotMemory shot;
     ApertureEchoes::Memory beams;
+    Labeller::Memory labels;
   };
 
   const Config& config_;
   trace::RayDistribution rays_;
   ApertureEchoes echoes_;
+  label::Row label_row_;
+  std::optional<Labeller> labeller_;
   Memory memory_;
 };
 

@@ -7,6 +7,7 @@
 #include "components/sonar/testing/config.h"
 #include "components/sonar/testing/ping.h"
 #include "kernels/acoustics/array/line.h"
+#include "kernels/mesh/solids/solid.h"
 #include "kernels/seabed/backscatter.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
@@ -263,4 +264,35 @@ TEST_CASE("pings carry their angle, and a head that can only see black says why"
   const auto health = head.step_until<msg::Health>("health", 460_ms);
   REQUIRE_FALSE(health.empty());
   CHECK(health.back().message == "the range of 4.0 m is below the altitude of 5.0 m");
+}
+
+TEST_CASE("a body ahead has its mask and its shadow in the rows that point at it, and in no other") {
+  ScanningConfig config = quiet();
+  config.effects.noise = true;
+  config.labels = LabelKind::kMasks;
+  config.range_m = 20.0;
+  trace::Scene scene = scene_of([](double, double) { return -13.0; });
+  trace::Body body;  // a box 1 m high, 10 m to the north of the head, which is 3 m above the seabed
+  body.surface = solids::surface_of(solids::Box{{2.0, 1.0, 1.0}}, 0.01);
+  body.surface.mesh.origin_enu_m = {0.0, 10.0, -12.5};
+  body.instance = 4;
+  scene.insert_body(0, std::move(body));
+  frames::PoseHistory truth{1'000'000'000};
+  truth.push(0, {{0.0, 0.0, -10.0}, frames::enu_from_ned()});
+  Scanning head(config, 0);
+  const auto labels_of = [&](std::int64_t ping) {
+    const auto report =
+        report_of(head, {ping, SimTime{0}, config.range_m}, config.start(), around(truth, scene, kSpeed_mps));
+    return std::get<1>(report.messages).value();
+  };
+  const msg::Labels ahead = labels_of(pings_per_sweep(config.scan) / 2);
+  REQUIRE(ahead.objects.size() == 1);
+  CHECK(ahead.objects[0].instance == 4);
+  REQUIRE(ahead.mask_run.rows() > 0);
+  const double metre = static_cast<double>(ahead.samples) / config.range_m;  // in samples, about
+  CHECK_THAT(static_cast<double>(ahead.objects[0].box[1]) / metre, WithinAbs(std::hypot(9.5, 2.0), 0.1));
+  CHECK_THAT(static_cast<double>(ahead.objects[0].shadow_box[3]) / metre, WithinAbs(std::hypot(15.75, 3.0), 0.1));
+  const msg::Labels astern = labels_of(0);
+  CHECK(astern.objects.empty());
+  CHECK(astern.mask_run.empty());
 }

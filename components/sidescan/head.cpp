@@ -110,18 +110,8 @@ LabelView label_view_of(const LineDesign& line, std::span<const array::Pattern> 
   LabelView view;
   view.axes = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitY()};
   view.sectors = {{-kFarthest_rad, 0.0, &receive[0]}, {0.0, kFarthest_rad, &receive[1]}};
-  view.lobe = {line.first_null, {1.0F, 1.0F}};  // receivers' patterns have it
+  view.lobe = aperture_lobe(line);
   return view;
-}
-
-/// A row for each side, with the two-way width at -3 dB of the line's far field.
-std::vector<label::Row> label_rows_of(const LineDesign& line) {
-  const auto two_way = [&](double sine) {
-    const double one_way = array::power(line.line, line.wavelength_m, sine);
-    return one_way * one_way;
-  };
-  const array::BeamEdges edges = array::half_power_edges(two_way, 0.0, 0.01 * line.first_null);
-  return {{0.0, edges.lower_sine, edges.upper_sine, 0}, {0.0, edges.lower_sine, edges.upper_sine, 1}};
 }
 
 detect::FirstBottomSettings bottom_of(const SidescanConfig& config) {
@@ -159,7 +149,7 @@ Sidescan::Sidescan(const Config& config, const SidescanChannel& channel, const L
       echoes_(apertures_of(config, channel, line),
               std::make_shared<const Environment>(*config.world, channel.frequency_hz), config.effects, config.quality),
       bottom_(bottom_of(config)),
-      label_rows_(label_rows_of(line)) {
+      label_rows_{aperture_row(line, 0), aperture_row(line, 1)} {
   if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_of(line, echoes_.receive()));
 }
 

@@ -57,6 +57,15 @@ Eigen::Vector3d direction_to(const SeaAcoustics& sea, const frames::HeadPose& po
 
 }  // namespace
 
+label::Row aperture_row(const LineDesign& line, int sector) {
+  const auto two_way = [&](double sine) {
+    const double one_way = array::power(line.line, line.wavelength_m, sine);
+    return one_way * one_way;
+  };
+  const array::BeamEdges edges = array::half_power_edges(two_way, 0.0, 0.01 * line.first_null);
+  return {0.0, edges.lower_sine, edges.upper_sine, sector};
+}
+
 msg::Labels Labeller::labels(const SeaAcoustics& sea, const Shot& shot, const trace::Mesh& mesh, const Echoed& echoed,
                              const ShotDesign& design, const LabelledImage& image, const ShotMemory& shot_memory,
                              Memory& memory) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "components/sonar/line_design.h"
 #include "components/sonar/sea_acoustics.h"
 #include "components/sonar/shot_design.h"
 #include "kernels/acoustics/label/image.h"
@@ -26,6 +27,11 @@ struct LabelView {
   std::vector<LabelSector> sectors;
   label::MainLobe lobe;  // of a row, besides the sector's pattern
 };
+
+/// Row of a transducer that sends and receives through one line: the two-way width at -3 dB of its far field.
+label::Row aperture_row(const LineDesign& line, int sector = 0);
+/// What such a row's lobe is besides its receiver's pattern: all of it, to the line's first nulls.
+inline label::MainLobe aperture_lobe(const LineDesign& line) { return {line.first_null, {1.0F, 1.0F}}; }
 
 /// Image that is labelled.
 struct LabelledImage {

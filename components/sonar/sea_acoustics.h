@@ -185,6 +185,7 @@ struct ProbeMemory {
   std::vector<std::uint32_t> rays;  // that hit
   echo::Arrivals arrivals;          // of these: mean squares
   // Scratch.
+  Environment::FacetLaws facet_laws;
   std::vector<double> power;
   echo::Scatterers scatterers;
 };

@@ -1,0 +1,86 @@
+"""Labels of a run: where geometry says, in place of the levels, and written as files by the command."""
+import json
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+import ensonify
+from ensonify import labels
+from ensonify.labels.dataset import Dataset
+from support import SOURCE, SystemTest
+
+
+def rotation(wxyz):
+    w, x, y, z = wxyz
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+class Labels(SystemTest):
+    def test_labels_of_a_run_and_the_files_made_of_them(self):
+        result = self.run_launch(SOURCE / "launch/targets.yaml", "--free", timeout=300)
+        self.assertEqual(result.code, 0, result.stderr)
+        with ensonify.Record(result.out / "targets.mcap") as record:
+            self.assertEqual(labels.ping_topics(record), ["eye/ping"])
+            pairs = list(labels.labelled(record, "eye/ping"))
+            poses = {pose.stamp_ns: pose for _, _, pose in record.messages("auv/pose")}
+            objects = {thing.instance: thing for _, _, thing in record.messages("pager/object")}
+        self.assertGreater(len(pairs), 3)
+        for ping, of in pairs:
+            self.assertEqual((of.beams, of.samples), ping.amplitude_upa.shape)
+            self.check_places(ping, of, poses[ping.stamp_ns], objects)
+        self.check_levels(*pairs[0])
+        self.check_files(result.out, len(pairs))
+
+    def check_places(self, ping, of, pose, objects):
+        """The middle of what is visible lies in the mask at its range and azimuth, and near the object's own middle."""
+        body = rotation(pose.enu_from_body)
+        head = np.array(pose.position_enu_m) + body @ np.array([0.5, 0, 0])
+        sines = np.sin(ping.beam_angle_rad)
+        metre = 2 / 1490 / ping.sample_period_s  # in samples
+        for place, thing in enumerate(of.objects):
+            if thing.visible < 0.5 or thing.inside < 0.9:
+                continue
+            mask = labels.mask(of, place)
+            hit = np.array(thing.hit_enu_m) - head
+            self.assertLess(np.linalg.norm(hit + head - np.array(objects[thing.instance].position_enu_m)), 1.0, thing.name)
+            range_m = np.linalg.norm(hit)
+            self.assertAlmostEqual(range_m, thing.range_m, delta=0.05)
+            beam = np.argmin(abs(sines - (body.T @ hit)[1] / range_m))
+            near = mask[max(0, beam - 2):beam + 3, int((range_m - 0.15) * metre):int((range_m + 0.15) * metre)]
+            self.assertTrue(near.any(), thing.name)
+
+    def check_levels(self, ping, of):
+        """Echoes of things are brighter than the seabed about them, shadows darker."""
+        power = np.square(ping.amplitude_upa, dtype=float)
+        things = {thing.name: place for place, thing in enumerate(of.objects)}
+        for name in ("cylinder", "half_buried", "crate"):
+            mask, dark = labels.mask(of, things[name]), labels.shadow(of, things[name])
+            samples = np.flatnonzero(mask.any(0))
+            about = power[:, samples][~labels.layer(of)[:, samples].astype(bool)]
+            self.assertGreater(power[mask].mean(), 3 * np.median(about), name)
+            self.assertTrue(dark.any(), name)
+            around = np.flatnonzero(dark.any(0))
+            lit = power[:, around][(labels.shadow_db(of)[:, around] == 0) & (labels.layer(of)[:, around] == 0)]
+            self.assertLess(np.median(power[dark]), 0.25 * np.median(lit), name)
+
+    def check_files(self, out, pings):
+        folder = out / "set"
+        command = [sys.executable, "-m", "ensonify.labels", str(out), "-o", str(folder), "--format", "coco", "webdataset", "masks",
+                   "--view", "cartesian"]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads(run.stdout)["pictures"], pings)
+        data = Dataset(folder)
+        self.assertEqual(set(data.names), {"box", "mine-like", "reference"})
+        self.assertGreater(len(data[0].boxes), 3)
+        again = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("is not empty", again.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
