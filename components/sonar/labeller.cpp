@@ -15,10 +15,10 @@ namespace ensonify {
 namespace {
 
 constexpr int kSilhouette = 32;          // rays each way over a body's extent
-constexpr int kStripsPerCell = 16;       // where a body is
+constexpr int kStripsPerCell = 10;       // where a body is
 constexpr int kFewestStrips = 8;         // of all cells of a sector
-constexpr int kStepsOfSector = 96;       // of a strip's first rays
-constexpr int kStepsOfBody = 12;         // more of them where a body is
+constexpr int kStepsOfSector = 48;       // of a strip's first rays
+constexpr int kStepsOfBody = 24;         // where a body is
 constexpr double kSeabedSamples = 16.0;  // between a strip's neighbours on the seabed, at most
 
 std::array<std::int64_t, 4> with(std::array<std::int64_t, 4> box, const label::Run& run) {
@@ -264,6 +264,31 @@ void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidat
   object.smooth = body.smooth;
 }
 
+/// Angles of a sector that the bodies about these sines take, one after the other.
+std::vector<std::pair<double, double>> Labeller::angles_of_bodies(std::span<const Candidate> bodies,
+                                                                  const LabelSector& sector, double lower,
+                                                                  double upper) {
+  std::vector<std::pair<double, double>> taken;
+  for (const Candidate& one : bodies) {
+    if (one.upper < lower || one.lower > upper) continue;
+    for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {
+      const double first = std::max(one.first_rad + turn, sector.first_rad);
+      const double last = std::min(one.last_rad + turn, sector.last_rad);
+      if (last > first) taken.emplace_back(first, last);
+    }
+  }
+  std::ranges::sort(taken);
+  std::vector<std::pair<double, double>> apart;
+  for (const auto& [first, last] : taken) {
+    if (apart.empty() || first > apart.back().second) {
+      apart.emplace_back(first, last);
+    } else {
+      apart.back().second = std::max(apart.back().second, last);
+    }
+  }
+  return apart;
+}
+
 /// Of all rows, narrow ones where bodies are; beside the outermost cells as far as their main lobes reach.
 std::vector<label::Strip> Labeller::strips_of(const Ping& ping, std::span<const Candidate> bodies) const {
   std::vector<label::Strip> strips;
@@ -275,27 +300,38 @@ std::vector<label::Strip> Labeller::strips_of(const Ping& ping, std::span<const 
     }
     const int fewest = std::max(1, kFewestStrips / static_cast<int>(cells.size()));
     const auto [lowest, highest] = std::pair(cells.front().first, cells.back().second);
-    for (const double beyond : {0.5, 1.0}) {  // cells beside the image
-      const double step = 0.5 * view_.lobe.null;
-      cells.emplace_back(lowest - 2.0 * beyond * step, lowest - (2.0 * beyond - 1.0) * step);
-      cells.emplace_back(highest + (2.0 * beyond - 1.0) * step, highest + 2.0 * beyond * step);
+    for (int beside = 0; beside < 2; ++beside) {
+      const double near = 0.5 * view_.lobe.null * beside, far = near + 0.5 * view_.lobe.null;
+      cells.emplace_back(lowest - far, lowest - near);
+      cells.emplace_back(highest + near, highest + far);
     }
+    const auto add = [&](double lower, double upper, int count, double first_rad, double last_rad, int steps,
+                         bool counts) {
+      const double width = (upper - lower) / count;
+      for (int i = 0; i < count; ++i)
+        strips.push_back({lower + (i + 0.5) * width, width, counts ? width : 0.0, first_rad, last_rad, number, steps});
+    };
     for (const auto& [from, to] : cells) {
       const double lower = std::max(-1.0, from), upper = std::min(1.0, to);
       if (!(upper > lower)) continue;
-      std::vector<double> also;
-      for (const Candidate& one : bodies) {
-        if (one.upper < lower - (upper - lower) || one.lower > upper + (upper - lower)) continue;
-        for (int i = 0; i <= kStepsOfBody; ++i) {
-          const double angle = std::lerp(one.first_rad, one.last_rad, static_cast<double>(i) / kStepsOfBody);
-          also.push_back(std::remainder(angle, 2.0 * std::numbers::pi));
-        }
+      const auto taken = angles_of_bodies(bodies, sector, 1.5 * lower - 0.5 * upper, 1.5 * upper - 0.5 * lower);
+      double done = sector.first_rad;
+      bool counted = false;
+      const auto add_seabed = [&](double last_rad) {
+        if (!(last_rad > done)) return;
+        const double part = (last_rad - done) / (sector.last_rad - sector.first_rad);
+        add(lower, upper, fewest, done, last_rad, 1 + static_cast<int>(part * kStepsOfSector), !counted);
+        counted = true;
+      };
+      for (const auto& [first_rad, last_rad] : taken) {
+        add_seabed(first_rad);
+        done = last_rad;
       }
-      const int count = also.empty() ? fewest : kStripsPerCell;
-      const double width = (upper - lower) / count;
-      for (int i = 0; i < count; ++i)
-        strips.push_back(
-            {lower + (i + 0.5) * width, width, sector.first_rad, sector.last_rad, number, kStepsOfSector, also});
+      add_seabed(sector.last_rad);
+      for (const auto& [first_rad, last_rad] : taken) {
+        add(lower, upper, kStripsPerCell, first_rad, last_rad, kStepsOfBody, !counted);
+        counted = true;
+      }
     }
   }
   return strips;
@@ -306,19 +342,23 @@ void Labeller::trace(const Ping& ping, const trace::Rays& rays, bool through_bod
   ProbeMemory& probed = ping.memory.probed;
   ping.sea.probe(ping.shot, ping.echoed, ping.mesh, rays, ping.image.range_m,
                  through_bodies ? trace::kAllBodies : trace::kNoise, ping.shot_memory, probed);
+  // What a sector's receiver makes of each; a ray belongs to the sector that its echo comes from.
+  const echo::Arrivals& arrivals = probed.arrivals;
+  auto& [x, y, z] = arrivals.direction_head;
+  auto &path_m = ping.memory.path_m, &amplitude = ping.memory.amplitude;
+  path_m.resize(arrivals.size());
+  amplitude.resize(arrivals.size());
+  for (std::size_t k = 0; k < path_m.size(); ++k) path_m[k] = probed.hits.path_length_m[probed.rays[k]];
   echoes.assign(rays.size(), {});
-  for (std::size_t k = 0; k < probed.rays.size(); ++k) {
-    const Eigen::Vector3f direction = probed.arrivals.direction_head[k];
-    const auto angle = std::atan2(direction.dot(view_.axes.quarter), direction.dot(view_.axes.zero));
-    const auto sector = std::ranges::find_if(view_.sectors, [&](const LabelSector& of) {
-      return static_cast<double>(angle) >= of.first_rad && static_cast<double>(angle) <= of.last_rad;
-    });
-    const auto time_s = static_cast<float>(probed.arrivals.time_s[k]);
-    const float amplitude = sector == view_.sectors.end()
-                                ? 0.0F
-                                : sector->receive->amplitude(direction, probed.hits.path_length_m[probed.rays[k]]);
-    echoes[probed.rays[k]] = {probed.hits.contributor[probed.rays[k]], time_s, direction.dot(view_.axes.axis),
-                              amplitude * amplitude * probed.arrivals.pressure_re_upa[k]};
+  for (const LabelSector& sector : view_.sectors) {
+    sector.receive->amplitudes({x, y, z}, path_m, amplitude);
+    for (std::size_t k = 0; k < arrivals.size(); ++k) {
+      const Eigen::Vector3f direction = arrivals.direction_head[k];
+      if (view_.sectors.size() > 1 && !sector.holds(view_.axes.angle_rad(direction))) continue;
+      echoes[probed.rays[k]] = {probed.hits.contributor[probed.rays[k]], static_cast<float>(arrivals.time_s[k]),
+                                direction.dot(view_.axes.axis),
+                                amplitude[k] * amplitude[k] * arrivals.pressure_re_upa[k]};
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "components/sonar/line_design.h"
@@ -19,6 +20,8 @@ namespace ensonify {
 struct LabelSector {
   double first_rad = 0.0, last_rad = 0.0;   // about the axis
   const array::Pattern* receive = nullptr;  // of one transducer; of a line an element's
+
+  bool holds(double angle_rad) const { return angle_rad >= first_rad && angle_rad <= last_rad; }
 };
 
 /// What labels know of a head.
@@ -56,6 +59,7 @@ class Labeller {
     };
     std::map<std::uint32_t, Alone> alone;  // by contributor
     ProbeMemory probed;
+    std::vector<float> path_m, amplitude;
     std::vector<std::vector<label::Point>> points;
 
     void forget_gone(const trace::Mesh& mesh);
@@ -97,6 +101,8 @@ class Labeller {
   std::vector<Patch> within_image(const Ping& ping, const Patch& patch) const;
   trace::Rays rays_over(const Patch& patch) const;
   void examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const;
+  static std::vector<std::pair<double, double>> angles_of_bodies(std::span<const Candidate> bodies,
+                                                                 const LabelSector& sector, double lower, double upper);
   std::vector<label::Strip> strips_of(const Ping& ping, std::span<const Candidate> bodies) const;
   void trace(const Ping& ping, const trace::Rays& rays, bool through_bodies, std::vector<label::RayEcho>& echoes) const;
 

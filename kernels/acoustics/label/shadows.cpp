@@ -21,7 +21,7 @@ struct Blocked {
 /// A strip by samples.
 struct Profile {
   std::vector<float> seabed_upa2;  // without bodies
-  std::vector<bool> lit;           // the seabed is there
+  std::vector<char> lit;           // the seabed is there
   std::vector<Blocked> blocked;
   double sine = 0.0;  // of arrival, mean
 };
@@ -45,7 +45,7 @@ void add_between(const Strip& strip, const Point& a, const Point& b, const echo:
     const auto level =
         static_cast<float>(std::max(0.0, to - from > 1e-6 ? part / length : 1.0) * sent * samples_per_period);
     profile.seabed_upa2[static_cast<std::size_t>(k)] += level;
-    profile.lit[static_cast<std::size_t>(k)] = true;
+    profile.lit[static_cast<std::size_t>(k)] = 1;
     for (const std::uint32_t body : by) {
       if (body != trace::kNoise) profile.blocked.push_back({k, body, 0.5F * level});
     }
@@ -87,18 +87,43 @@ struct OfRow {
   }
 };
 
-/// The first of the bodies that block most.
-std::uint32_t most_of(std::span<const Blocked> blocked) {
-  std::uint32_t whose = trace::kNoise;
-  float most = 0.0F;
-  for (std::size_t i = 0; i < blocked.size();) {
-    float sum = 0.0F;
-    const std::uint32_t body = blocked[i].body;
-    for (; i < blocked.size() && blocked[i].body == body; ++i) sum += blocked[i].level_upa2;
-    if (sum > most) most = sum, whose = body;
+/// What bodies block of a row, by body and sample.
+class BlockedRow {
+ public:
+  explicit BlockedRow(std::size_t samples) : all_upa2(samples) {}
+
+  void add(const Blocked& of, float power) {
+    if (bodies_.empty() || bodies_[last_].body != of.body) find(of.body);
+    const auto k = static_cast<std::size_t>(of.sample);
+    bodies_[last_].level_upa2[k] += power * of.level_upa2;
+    all_upa2[k] += power * of.level_upa2;
   }
-  return whose;
-}
+  /// The body that blocks most of a sample, of those alike the lower number.
+  std::uint32_t most_of(std::size_t k) const {
+    const Body* most = nullptr;
+    for (const Body& body : bodies_) {
+      const float more = body.level_upa2[k] - (most != nullptr ? most->level_upa2[k] : 0.0F);
+      if (more > 0.0F || (most != nullptr && more == 0.0F && body.body < most->body)) most = &body;
+    }
+    return most != nullptr ? most->body : trace::kNoise;
+  }
+
+  std::vector<float> all_upa2;
+
+ private:
+  struct Body {
+    std::uint32_t body;
+    std::vector<float> level_upa2;
+  };
+  void find(std::uint32_t body) {
+    const auto there = std::ranges::find(bodies_, body, &Body::body);
+    last_ = static_cast<std::size_t>(there - bodies_.begin());
+    if (there == bodies_.end()) bodies_.push_back({body, std::vector<float>(all_upa2.size())});
+  }
+
+  std::vector<Body> bodies_;
+  std::size_t last_ = 0;  // that was asked for
+};
 
 }  // namespace
 
@@ -118,7 +143,7 @@ Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<
   std::vector<OfRow> found(rows.size());
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t r) {
     std::vector<float> without(count), covered(count);
-    std::vector<Blocked> blocked;
+    BlockedRow blocked(count);
     float all = 0.0F;
     for (std::size_t s = 0; s < strips.size(); ++s) {
       if (strips[s].sector != rows[r].sector) continue;
@@ -126,18 +151,14 @@ Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<
       const float power = lobe.at(profile.sine - rows[r].axis);
       if (power <= 0.0F) continue;
       const float weight = power * static_cast<float>(strips[s].width);
-      all += weight;
+      all += power * static_cast<float>(strips[s].counted);
       for (std::size_t k = 0; k < count; ++k) {
         without[k] += power * profile.seabed_upa2[k];
-        covered[k] += profile.lit[k] ? weight : 0.0F;
+        covered[k] += profile.lit[k] != 0 ? weight : 0.0F;
       }
-      for (Blocked of : profile.blocked) {
-        of.level_upa2 *= power;
-        blocked.push_back(of);
-      }
+      for (const Blocked& of : profile.blocked) blocked.add(of, power);
     }
     if (all <= 0.0F) return;
-    std::ranges::stable_sort(blocked, {}, [](const Blocked& of) { return std::pair(of.sample, of.body); });
     std::vector<bool> masked(count);
     for (const Run& run : masks[r]) std::fill(masked.begin() + run.first, masked.begin() + run.end, true);
 
@@ -146,21 +167,18 @@ Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<
     std::size_t last = count;
     while (last > 0 && !lit(last - 1)) --last;
     bool answered = false;  // the last that was lit, over the background
-    auto at = blocked.begin();
     for (std::size_t k = 0; k < last; ++k) {
-      const auto sample = static_cast<std::int32_t>(k);
-      const auto first = at;
-      double missing = 0.0;
-      for (; at != blocked.end() && at->sample == sample; ++at) missing += static_cast<double>(at->level_upa2);
+      const auto row = static_cast<std::int32_t>(r), sample = static_cast<std::int32_t>(k);
       if (lit(k)) answered = without[k] > background[k];
-      if (masked[k]) continue;
+      if (masked[k] || !answered) continue;
       if (!lit(k)) {
-        if (answered) found[r].add(trace::kNoise, static_cast<std::int32_t>(r), sample, 0.0);
+        found[r].add(trace::kNoise, row, sample, 0.0);
         continue;
       }
-      const double all_of_it = static_cast<double>(without[k]), left = std::max(all_of_it - missing, all_of_it / most);
-      if (first == at || !answered || all_of_it < least * left) continue;
-      found[r].add(most_of({first, at}), static_cast<std::int32_t>(r), sample, 10.0 * std::log10(all_of_it / left));
+      const auto whole = static_cast<double>(without[k]), missing = static_cast<double>(blocked.all_upa2[k]);
+      const double left = std::max(whole - missing, whole / most);
+      if (missing <= 0.0 || whole < least * left) continue;
+      found[r].add(blocked.most_of(k), row, sample, 10.0 * std::log10(whole / left));
     }
   });
 

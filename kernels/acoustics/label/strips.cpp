@@ -61,16 +61,6 @@ class Tracer {
   std::vector<RayEcho> echoes_;
 };
 
-std::vector<double> angles_of(const Strip& strip) {
-  std::vector<double> angles = strip.also_rad;
-  std::erase_if(angles, [&](double angle) { return angle <= strip.first_rad || angle >= strip.last_rad; });
-  for (int i = 0; i <= strip.steps; ++i)
-    angles.push_back(std::lerp(strip.first_rad, strip.last_rad, static_cast<double>(i) / strip.steps));
-  std::ranges::sort(angles);
-  angles.erase(std::ranges::unique(angles).begin(), angles.end());
-  return angles;
-}
-
 }  // namespace
 
 Eigen::Vector3f Axes::direction(double sine, double angle_rad) const {
@@ -83,16 +73,15 @@ void trace_strips(const Axes& axes, std::span<const Strip> strips, const Finenes
                   std::vector<std::vector<Point>>& points) {
   points.assign(strips.size(), {});
   Tracer tracer(axes, trace);
-  std::vector<std::size_t> count(strips.size());
-  for (std::size_t s = 0; s < strips.size(); ++s) {
-    const std::vector<double> angles = angles_of(strips[s]);
-    count[s] = angles.size();
-    for (const double angle : angles) tracer.add(strips[s].sine, angle);
+  for (const Strip& strip : strips) {
+    for (int i = 0; i <= strip.steps; ++i)
+      tracer.add(strip.sine, std::lerp(strip.first_rad, strip.last_rad, static_cast<double>(i) / strip.steps));
   }
   std::span<const Point> traced = tracer.traced();
   for (std::size_t s = 0; s < strips.size(); ++s) {
-    points[s].assign(traced.begin(), traced.begin() + static_cast<std::ptrdiff_t>(count[s]));
-    traced = traced.subspan(count[s]);
+    const auto count = static_cast<std::size_t>(strips[s].steps) + 1;
+    points[s].assign(traced.begin(), traced.begin() + static_cast<std::ptrdiff_t>(count));
+    traced = traced.subspan(count);
   }
 
   std::vector<Gap> gaps;

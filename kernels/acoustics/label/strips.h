@@ -19,15 +19,18 @@ struct Axes {
   Eigen::Vector3f quarter = Eigen::Vector3f::UnitZ();
 
   Eigen::Vector3f direction(double sine, double angle_rad) const;
+  double angle_rad(const Eigen::Vector3f& direction) const {
+    return static_cast<double>(std::atan2(direction.dot(quarter), direction.dot(zero)));
+  }
 };
 
 /// Directions of one sine, on a cone about the axis. In sine and angle the element of solid angle is their product.
 struct Strip {
-  double sine = 0.0, width = 0.0;          // the width in sine
+  double sine = 0.0, width = 0.0;  // the width in sine
+  double counted = 0.0;  // of it, where strips have a width between them: what a row could receive is counted once
   double first_rad = 0.0, last_rad = 0.0;  // about the axis
   int sector = 0;                          // rows of the image that it belongs to
   int steps = 64;                          // even ones, to start with
-  std::vector<double> also_rad = {};       // further angles to start with, any order
 };
 
 /// What one ray hits first, and what comes back of it.

@@ -65,6 +65,8 @@ TEST_CASE("a ray that hits a body says which, and the mesh's table what that is"
   Hits behind;
   mesh.trace(kHead, rays, kFar_m, behind, 1500.0, body_contributor(kBall));
   CHECK(behind.contributor[0] == sediment_contributor(0));
+  mesh.trace(kHead, rays, kFar_m, behind, 1500.0, kAllBodies);
+  CHECK(behind.contributor[0] == sediment_contributor(0));
 
   CHECK(scene.remove_body(kBall));
   CHECK_FALSE(scene.remove_body(kBall));
@@ -149,4 +151,27 @@ TEST_CASE("bodies with a fault are refused") {
   body = ball(false);
   body.surface.mesh.triangle[0] = {0, 1, 1'000'000};
   CHECK_THROWS_AS(scene.insert_body(1, body), std::invalid_argument);
+}
+
+TEST_CASE("behind all bodies lies the seabed, though one stands on it with a flat face and another in front") {
+  Scene scene = scene_of(flat);
+  const double ground_m = *scene.height_m({0.0, 0.0});
+  Scene with = scene_of(flat);
+  with.insert_body(3, body_of(solids::Box{{2.0, 2.0, 1.0}}, {0.0, 0.0, ground_m + 0.5}, false));
+  with.insert_body(5, body_of(solids::Sphere{2.0}, {0.8, 0.0, ground_m + 3.0}, false));
+  Rays rays;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 at(0.002 * (i - 500), 0.1, ground_m);
+    rays.push_back({(kHead.enu_from_head.conjugate() * (at - kHead.position_enu_m).normalized()).cast<float>(), 1.0F});
+  }
+  Hits alone, first, behind;
+  scene.adapted().trace(kHead, rays, kFar_m, alone);
+  const Mesh mesh = with.adapted();
+  mesh.trace(kHead, rays, kFar_m, first);
+  mesh.trace(kHead, rays, kFar_m, behind, 1500.0, kAllBodies);
+  CHECK(std::ranges::count(first.contributor, body_contributor(3)) > 0);
+  CHECK(std::ranges::count(first.contributor, body_contributor(5)) > 0);
+  CHECK(behind.contributor == alone.contributor);
+  CHECK(behind.position_enu_m.x == alone.position_enu_m.x);
+  CHECK(behind.range_m == alone.range_m);
 }

@@ -145,6 +145,7 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
     return;
   }
   const PartTree& tree = content_->tree;
+  const auto of = behind == kAllBodies ? PartTree::Of::kSeabed : PartTree::Of::kAll;
   const Vec3 origin(content_->origin_enu_m.x(), content_->origin_enu_m.y(), 0.0);
   const Source source{head.position_enu_m, head.position_enu_m - origin, head.enu_from_head.toRotationMatrix(),
                       max_range_m, static_cast<float>(1.0 / sound_speed_mps)};
@@ -154,8 +155,8 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
     const std::size_t count = std::min(kPacket, rays.size() - first);
     Packet packet;
     aim(source, rays, first, count, packet);
-    packet.intersect(tree);
-    if (behind != kNoise) {
+    packet.intersect(tree, of);
+    if (behind != kNoise && behind != kAllBodies) {
       float tfar_m[kPacket];
       std::ranges::fill(tfar_m, max_range_m);
       const RTCRay16& ray = packet.rays.ray;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/acoustics/trace/contributors.h"
 #include "kernels/acoustics/trace/parts.h"
 #include "kernels/base/frames/attitude.h"
 
@@ -13,10 +12,6 @@ namespace ensonify::trace {
 
 constexpr std::size_t kPacket = 16;  // rays that Embree traces together
 constexpr std::size_t kChunk = 32;   // packets per task: fixed, so the number of threads changes nothing
-
-inline bool passes(std::uint32_t contributor, std::uint32_t behind) {
-  return contributor == behind || (behind == kAllBodies && is_body(contributor));
-}
 
 /// Rays of one packet, in Embree's frame. Lanes beyond `count` are off.
 struct Packet {
@@ -49,15 +44,14 @@ struct Packet {
   }
 
   /// The nearest facet for each lane.
-  void intersect(const PartTree& mesh) {
-    mesh.intersect(on, rays);
+  void intersect(const PartTree& mesh, PartTree::Of of = PartTree::Of::kAll) {
+    mesh.intersect(on, rays, of);
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
       if (rays.hit.instID[0][lane] != RTC_INVALID_GEOMETRY_ID) part_hit[lane] = &mesh.part(rays.hit.instID[0][lane]);
     }
   }
 
-  /// Lets the lanes that hit a facet of the contributor `behind` go on to the first that is of another; kAllBodies: of
-  /// no body.
+  /// Lets the lanes that hit a facet of the contributor `behind` go on to the first that is of another.
   template <class ContributorAt>  // (lane): of what it hit
   void pass(const PartTree& mesh, std::uint32_t behind, const float (&tfar_m)[kPacket],
             const ContributorAt& contributor_at) {
@@ -66,7 +60,7 @@ struct Packet {
     for (;;) {
       bool any = false;
       for (std::size_t lane = 0; lane < kPacket; ++lane) {
-        going[lane] = on[lane] != 0 && part_hit[lane] && passes(contributor_at(lane), behind) ? -1 : 0;
+        going[lane] = on[lane] != 0 && part_hit[lane] && contributor_at(lane) == behind ? -1 : 0;
         if (going[lane] == 0) continue;
         any = true;
         const float at_m = rays.ray.tfar[lane];

@@ -46,6 +46,7 @@ RTCBounds bounds_of(const Shown& shown, const terrain::Vec2& origin_enu_m) {
 /// What Embree hands to callbacks. It is C: no exception may pass through it.
 struct Query : RTCIntersectContext {
   std::exception_ptr failure;
+  PartTree::Of of = PartTree::Of::kAll;
 };
 
 float facet_of(const Shown& shown) {
@@ -145,9 +146,10 @@ PartTree::PartTree(const Device& device, std::vector<std::shared_ptr<const Part>
   scene_ = std::move(scene);
 }
 
-void PartTree::intersect(const int* on, RTCRayHit16& rays) const {
+void PartTree::intersect(const int* on, RTCRayHit16& rays, Of of) const {
   if (!scene_) return;
   Query query;
+  query.of = of;
   rtcInitIntersectContext(&query);
   if (in_one_octant(on, rays.ray)) query.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(on, scene_.get(), &query, &rays);
@@ -160,11 +162,14 @@ void PartTree::bound(const RTCBoundsFunctionArguments* of) {
 
 /// Embree asks with as many rays as it likes to trace together.
 void PartTree::enter(const RTCIntersectFunctionNArguments* of) {
-  auto& failure = static_cast<Query*>(of->context)->failure;
+  auto& query = *static_cast<Query*>(of->context);
+  auto& failure = query.failure;
   if (failure) return;
+  const Part& part = *static_cast<const std::shared_ptr<const Part>*>(of->geometryUserPtr)[of->primID];
+  if (query.of == Of::kSeabed && part.is_body()) return;
   RTCScene scene = nullptr;
   try {
-    scene = static_cast<const std::shared_ptr<const Part>*>(of->geometryUserPtr)[of->primID]->scene();
+    scene = part.scene();
   } catch (...) {
     failure = std::current_exception();
     return;

@@ -54,6 +54,7 @@ class Part {
   std::uint32_t number() const { return number_; }
   float facet_m() const { return facet_m_; }
   virtual std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const = 0;
+  virtual bool is_body() const { return false; }
 
  protected:
   struct Content {
@@ -120,9 +121,10 @@ class PartTree {
   PartTree(const PartTree&) = delete;  // Embree knows where its parts are
   PartTree& operator=(const PartTree&) = delete;
 
-  /// The nearest facet for each lane of a packet that is on, by instance number. Throws what kept a part from being
-  /// built when a ray came to it; the packet is then void.
-  void intersect(const int* on, RTCRayHit16& rays) const;
+  enum class Of { kAll, kSeabed };  // seabed: all but bodies
+  /// The nearest facet of these for each lane of a packet that is on, by instance number. Throws what kept a part from
+  /// being built when a ray came to it; the packet is then void.
+  void intersect(const int* on, RTCRayHit16& rays, Of of = Of::kAll) const;
   /// By the instance number of a hit.
   const Part& part(unsigned number) const { return *parts_[number]; }
 

@@ -141,6 +141,7 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
   const bool use_table = paths.level_m() <= band.top_m;
   const Eigen::Matrix3d enu_from_head = head.enu_from_head.toRotationMatrix();
   const PartTree& tree = content_->tree;
+  const auto of = behind == kAllBodies ? PartTree::Of::kSeabed : PartTree::Of::kAll;
   const Vec3 origin(content_->origin_enu_m.x(), content_->origin_enu_m.y(), 0.0);
   const Vec3 start = head.position_enu_m - origin;
 
@@ -177,8 +178,8 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
       }
       float tfar_m[kPacket] = {};
       for (std::size_t lane = 0; lane < kPacket; ++lane) tfar_m[lane] = packet.rays.ray.tfar[lane];
-      packet.intersect(tree);
-      if (behind != kNoise) {
+      packet.intersect(tree, of);
+      if (behind != kNoise && behind != kAllBodies) {
         packet.pass(tree, behind, tfar_m, [&](std::size_t lane) {
           return hit_of(packet, lane, *lanes[lane], from[lane] + origin, head.position_enu_m).contributor;
         });

@@ -114,8 +114,8 @@ class Mesh {
 
   /// The first facet that each ray hits within max_range_m of water where rays are straight. hits is resized to rays
   /// and overwritten. sound_speed_mps gives the travel times, nothing else. Rays pass all facets of the contributor
-  /// `behind` (kAllBodies: of every body), so that they hit what it hides; what lies within 1 mm of it along the ray is
-  /// passed too.
+  /// `behind`, so that they hit what it hides; what lies within 1 mm of it along the ray is passed too. Behind
+  /// kAllBodies they pass those of every body, and nothing else.
   void trace(const frames::HeadPose& head, const Rays& rays, float max_range_m, Hits& hits,
              double sound_speed_mps = 1500.0, std::uint32_t behind = kNoise) const;
 

@@ -32,6 +32,7 @@ class TrianglePart final : public Part {
                const Common& common);
 
   std::uint32_t contributor_at(const terrain::Vec2&) const override { return contributor_; }
+  bool is_body() const override { return trace::is_body(contributor_); }
   const std::vector<progressive::Triangle>& shown() const { return triangles_; }
 
  private:
