@@ -41,6 +41,31 @@ struct ConsoleItem {
   }
 };
 
+/// A number of a message type that can be drawn over time.
+struct ConsoleScalar {
+  std::string field;
+  std::string unit;
+  std::string about;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("field", "", "name of the number in its message, with dots where it lies deeper", self.field);
+    visit("unit", "", "unit in which it is sent: degrees for angles", self.unit);
+    visit("about", "", "meaning of the number", self.about);
+  }
+};
+
+struct ConsoleType {
+  std::string type;
+  std::vector<ConsoleScalar> scalars;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("type", "", "message type", self.type);
+    visit("scalars", "", "numbers of its messages, and what follows from them", self.scalars);
+  }
+};
+
 struct ConsoleState {
   static constexpr const char* kType = "console_state/1";
   static constexpr const char* kAbout = "What a console shows, to its viewers when they enter and when it changes.";
@@ -53,6 +78,7 @@ struct ConsoleState {
   std::int64_t exit_code = 0;
   double speed = 0.0;
   std::vector<ConsoleTopic> topics;
+  std::vector<ConsoleType> types;
   std::vector<ConsoleItem> items;
   std::vector<std::string> launches;
 
@@ -67,6 +93,7 @@ struct ConsoleState {
     visit("exit_code", "1", "exit code of a run that has ended and was started by this console", self.exit_code);
     visit("speed", "1", "sim seconds per wall second that are asked for; 0: as fast as possible", self.speed);
     visit("topics", "", "topics that can be watched", self.topics);
+    visit("types", "", "types of these topics that have numbers to be drawn over time", self.types);
     visit("items", "", "live runs and records that can be opened", self.items);
     visit("launches", "", "launch files of the installation, to be started from a shell", self.launches);
   }
@@ -163,6 +190,39 @@ struct ConsoleTrack {
   }
 };
 
+/// New points of one number.
+struct ConsoleSeries {
+  std::string name;
+  std::string unit;
+  std::int64_t first = 0;
+  Array<double> time_s;
+  Array<double> value;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("name", "", "name of the number: TOPIC.field", self.name);
+    visit("unit", "", "unit of its values; empty: not known", self.unit);
+    visit("first", "1", "index of the first of the new points", self.first);
+    visit("time_s", "s", "sim time of each point", self.time_s);
+    visit("value", "",
+          "value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s",
+          self.value);
+  }
+};
+
+struct ConsoleValues {
+  static constexpr const char* kType = "console_values/1";
+  static constexpr const char* kAbout = "Numbers over time: new points of those that a viewer asks for.";
+  std::int64_t generation = 0;
+  std::vector<ConsoleSeries> series;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; with another one all earlier points are void", self.generation);
+    visit("series", "", "numbers with new points", self.series);
+  }
+};
+
 struct ConsoleEnter {
   static constexpr const char* kType = "console_enter/1";
   static constexpr const char* kAbout = "A viewer's first message, within 2 s.";
@@ -197,11 +257,13 @@ struct ConsoleWatch {
   static constexpr const char* kAbout = "A viewer says all that it watches from now on.";
   bool hidden = false;
   std::vector<ConsoleWatched> topics;
+  std::vector<std::string> values;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("hidden", "", "true while nobody can see the page: nothing is sent to it", self.hidden);
     visit("topics", "", "topics, at most 64", self.topics);
+    visit("values", "", "names of numbers (TOPIC.field) of the topic values, at most 32", self.values);
   }
 };
 

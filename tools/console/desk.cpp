@@ -68,7 +68,11 @@ void Desk::settle(Flow& flow) {
 }
 
 void Desk::ask_source() {
-  std::set<std::string> wanted;
+  std::set<std::string> names;
+  for (const Flow* flow : viewers_)
+    if (flow->watches(kValuesTopic)) names.insert(flow->values().begin(), flow->values().end());
+  values_.want(names, type_of_);
+  std::set<std::string> wanted = values_.topics();
   for (const auto& entry : type_of_) {
     const std::string& topic = entry.first;
     const bool soundings = entry.second == msg::Soundings::kType;
@@ -98,6 +102,11 @@ void Desk::refresh() {
     cells = cells || type == msg::Soundings::kType;
     tracks = tracks || is_track(type);
   }
+  std::set<std::string> types;
+  for (const auto& [topic, type] : type_of_) types.insert(type);
+  for (const std::string& type : types)
+    if (!scalars_of(type).empty()) state_.types.push_back({type, scalars_of(type)});
+  if (!state_.types.empty()) state_.topics.push_back({kValuesTopic, msg::ConsoleValues::kType, "", ""});
   if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
   if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
@@ -114,6 +123,7 @@ bool Desk::poll(WallTime now) {
   const bool was_away = state_.state == "waiting" || state_.state == "ended";
   if (fresh.kind == "run" && was_away && fresh.state == "running") {  // another run of that name
     survey_.clear();
+    values_.clear();
     newest_.clear();
     finds_.clear();
     fault_.clear();
@@ -142,6 +152,7 @@ void Desk::take(msg::Packet packet, WallTime now) {
     offer.way = Way::state;
   }
   try {
+    values_.take(type->second, packet);
     survey_.take(type->second, packet);
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];

@@ -12,6 +12,7 @@
 #include "tools/console/flow.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
+#include "tools/console/values.h"
 
 namespace ensonify::console {
 
@@ -34,6 +35,8 @@ class Desk {
   const msg::ConsoleState& state() const { return state_; }
   /// What kCellsTopic and kTrackTopic are made of.
   const Survey& survey() const { return survey_; }
+  /// What kValuesTopic is made of.
+  const Values& values() const { return values_; }
   void command(const msg::ConsoleCommand& command) { source_->command(command); }
 
   /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
@@ -52,6 +55,7 @@ class Desk {
   std::map<std::string, std::string> type_of_;  // of the source's topics
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
+  Values values_;
   std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
 
   struct Made {  // the last pictures, for several viewers of one size
@@ -62,9 +66,10 @@ class Desk {
   std::list<Made> made_;
 };
 
-/// Topics that a desk makes of several: console_cells/1, console_track/1.
+/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1.
 inline constexpr const char* kCellsTopic = "cells";
 inline constexpr const char* kTrackTopic = "track";
+inline constexpr const char* kValuesTopic = "values";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

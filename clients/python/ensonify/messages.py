@@ -13,11 +13,15 @@ __all__ = [
     "ClockHealth",
     "ConsoleTopic",
     "ConsoleItem",
+    "ConsoleScalar",
+    "ConsoleType",
     "ConsoleState",
     "ConsoleFlowTopic",
     "ConsoleFlow",
     "ConsoleCells",
     "ConsoleTrack",
+    "ConsoleSeries",
+    "ConsoleValues",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -150,6 +154,32 @@ class ConsoleItem(Struct):
 
 
 @dataclass(eq=False)
+class ConsoleScalar(Struct):
+    """A number of a message type that can be drawn over time.
+
+    field: name of the number in its message, with dots where it lies deeper
+    unit: unit in which it is sent: degrees for angles
+    about: meaning of the number
+    """
+
+    field: str = ""
+    unit: str = ""
+    about: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleType(Struct):
+    """Part of a message: ConsoleType.
+
+    type: message type
+    scalars: numbers of its messages, and what follows from them
+    """
+
+    type: str = ""
+    scalars: list = list_of(ConsoleScalar)
+
+
+@dataclass(eq=False)
 class ConsoleState(Message):
     """What a console shows, to its viewers when they enter and when it changes.
 
@@ -162,6 +192,7 @@ class ConsoleState(Message):
     exit_code [1]: exit code of a run that has ended and was started by this console
     speed [1]: sim seconds per wall second that are asked for; 0: as fast as possible
     topics: topics that can be watched
+    types: types of these topics that have numbers to be drawn over time
     items: live runs and records that can be opened
     launches: launch files of the installation, to be started from a shell
     """
@@ -176,6 +207,7 @@ class ConsoleState(Message):
     exit_code: int = 0
     speed: float = 0.0
     topics: list = list_of(ConsoleTopic)
+    types: list = list_of(ConsoleType)
     items: list = list_of(ConsoleItem)
     launches: list = list_of(str)
 
@@ -268,6 +300,37 @@ class ConsoleTrack(Message):
 
 
 @dataclass(eq=False)
+class ConsoleSeries(Struct):
+    """New points of one number.
+
+    name: name of the number: TOPIC.field
+    unit: unit of its values; empty: not known
+    first [1]: index of the first of the new points
+    time_s [s]: sim time of each point
+    value: value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s
+    """
+
+    name: str = ""
+    unit: str = ""
+    first: int = 0
+    time_s: np.ndarray = array("f8")
+    value: np.ndarray = array("f8")
+
+
+@dataclass(eq=False)
+class ConsoleValues(Message):
+    """Numbers over time: new points of those that a viewer asks for.
+
+    generation [1]: number of the run; with another one all earlier points are void
+    series: numbers with new points
+    """
+
+    TYPE = "console_values/1"
+    generation: int = 0
+    series: list = list_of(ConsoleSeries)
+
+
+@dataclass(eq=False)
 class ConsoleEnter(Message):
     """A viewer's first message, within 2 s.
 
@@ -302,11 +365,13 @@ class ConsoleWatch(Message):
 
     hidden: true while nobody can see the page: nothing is sent to it
     topics: topics, at most 64
+    values: names of numbers (TOPIC.field) of the topic values, at most 32
     """
 
     TYPE = "console_watch/1"
     hidden: bool = False
     topics: list = list_of(ConsoleWatched)
+    values: list = list_of(str)
 
 
 @dataclass(eq=False)
@@ -1580,6 +1645,7 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleFlow,
     ConsoleCells,
     ConsoleTrack,
+    ConsoleValues,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

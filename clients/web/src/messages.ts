@@ -60,6 +60,22 @@ export interface ConsoleItem {
   text: string;
 }
 
+export interface ConsoleScalar {
+  /** name of the number in its message, with dots where it lies deeper */
+  field: string;
+  /** unit in which it is sent: degrees for angles */
+  unit: string;
+  /** meaning of the number */
+  about: string;
+}
+
+export interface ConsoleType {
+  /** message type */
+  type: string;
+  /** numbers of its messages, and what follows from them */
+  scalars: ConsoleScalar[];
+}
+
 export interface ConsoleState {
   /** kind of source: run, record, or empty where nothing is open */
   kind: string;
@@ -79,6 +95,8 @@ export interface ConsoleState {
   speed: number;
   /** topics that can be watched */
   topics: ConsoleTopic[];
+  /** types of these topics that have numbers to be drawn over time */
+  types: ConsoleType[];
   /** live runs and records that can be opened */
   items: ConsoleItem[];
   /** launch files of the installation, to be started from a shell */
@@ -149,6 +167,26 @@ export interface ConsoleTrack {
   point_enu_m: Numbers<Float64Array>;
 }
 
+export interface ConsoleSeries {
+  /** name of the number: TOPIC.field */
+  name: string;
+  /** unit of its values; empty: not known */
+  unit: string;
+  /** index of the first of the new points (1) */
+  first: number;
+  /** sim time of each point (s) */
+  time_s: Numbers<Float64Array>;
+  /** value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s */
+  value: Numbers<Float64Array>;
+}
+
+export interface ConsoleValues {
+  /** number of the run; with another one all earlier points are void (1) */
+  generation: number;
+  /** numbers with new points */
+  series: ConsoleSeries[];
+}
+
 export interface ConsoleEnter {
   /** token of the URL to view or to control */
   token: string;
@@ -172,6 +210,8 @@ export interface ConsoleWatch {
   hidden: boolean;
   /** topics, at most 64 */
   topics: ConsoleWatched[];
+  /** names of numbers (TOPIC.field) of the topic values, at most 32 */
+  values: string[];
 }
 
 export interface ConsoleDrawn {
@@ -1153,6 +1193,7 @@ export const TYPES: Record<string, string> = {
   "01e9c5843cad59a7": "console_flow/1",
   "d8f4b048f8b65b04": "console_cells/1",
   "05273cc6f0f7bf56": "console_track/1",
+  "68fb0375e540f86d": "console_values/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",
