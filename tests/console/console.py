@@ -71,6 +71,36 @@ def health(times_s=(0.0, 1.0)):
                                             counters=[ensonify.Counter(name="fixes", count=i)])
 
 
+def angles_wxyz(heading_rad, pitch_rad, roll_rad):
+    """Attitude quaternion enu_from_body of an FRD body, w, x, y, z."""
+    def product(a, b):
+        return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+                a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+
+    def about(axis, angle):
+        return (np.cos(angle / 2), *(np.sin(angle / 2) * (i == axis) for i in range(3)))
+
+    level_to_north = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
+    return product(level_to_north, product(about(2, heading_rad), product(about(1, pitch_rad), about(0, roll_rad))))
+
+
+TRUE_ROLL_DEG, ESTIMATED_ROLL_DEG = 10.0, 12.0
+
+
+def voyage(seconds=20.0, rate_hz=5.0, gap_s=(8.0, 12.0)):
+    """A vehicle that turns by 9 degrees a second from 200 degrees on, 4 m/s fast; its true roll is TRUE_ROLL_DEG, its estimated roll
+    ESTIMATED_ROLL_DEG. In `gap_s` there is no estimate. An altimeter counts down from 30 m; in the second half it has no answer."""
+    for i in range(int(seconds * rate_hz)):
+        t_s = i / rate_hz
+        common = {"stamp_ns": int(t_s * 1e9), "position_enu_m": (1.0, 2.0, -3.0), "velocity_enu_mps": (0.0, 4.0, 1.0)}
+        heading_rad = np.radians((200 + 9 * t_s) % 360)
+        yield "boat/pose", ensonify.Pose(**common, enu_from_body=angles_wxyz(heading_rad, 0.0, np.radians(TRUE_ROLL_DEG)))
+        if not gap_s[0] <= t_s < gap_s[1]:
+            yield "nav/estimate", ensonify.Estimate(**common, enu_from_body=angles_wxyz(heading_rad, 0.0, np.radians(ESTIMATED_ROLL_DEG)))
+        answers = t_s < seconds / 2
+        yield "echo/altitude", ensonify.Altitude(stamp_ns=int(t_s * 1e9), valid=answers, range_m=30.0 - t_s if answers else 0.0)
+
+
 def write_record(file, *streams, declares=None):
     """In the order of time."""
     messages = sorted((message for stream in streams for message in stream), key=lambda m: m[1].stamp_ns)

@@ -67,7 +67,7 @@ std::vector<msg::ConsoleScalar> list_of(std::string_view type) {
     list.push_back({"depth_m", "m", "depth of the valid sounding nearest to the head's axis, below chart datum"});
     list.push_back({"valid_share", "", "share of the entries that are valid soundings"});
   }
-  if (has_ping(*info)) list.push_back({"ping_rate_hz", "Hz", "pings per second of sim time"});
+  if (has_ping(*info)) list.push_back({"pings_per_s", "Hz", "pings per second of sim time"});
   for (const msg::FieldInfo& field : info->fields) add_fields(field, "", list);
   return list;
 }
@@ -95,7 +95,7 @@ double motion_in(const msg::Value& message, std::string_view field) {
   const frames::Attitude attitude = frames::attitude_of(frames::quaternion_of(wxyz));
   if (field == "heading_grid_rad") return attitude.heading_rad * kDegree;
   if (field == "roll_rad") return attitude.roll_rad * kDegree;
-  return attitude.pitch_rad * kDegree;
+  return field == "pitch_rad" ? attitude.pitch_rad * kDegree : kNaN;
 }
 
 double sounding_in(const msg::Value& message, std::string_view field) {
@@ -116,11 +116,12 @@ double sounding_in(const msg::Value& message, std::string_view field) {
     nearest = std::abs(angle->number(i));
     depth_m = -place->number(3 * i + 2);
   }
-  return field == "depth_m" ? depth_m : count / static_cast<double>(valid->size());
+  if (field == "depth_m") return depth_m;
+  return field == "valid_share" ? count / static_cast<double>(valid->size()) : kNaN;
 }
 
 /// Pings that were left out count: from one message to the next several numbers may have passed.
-double ping_rate_hz(const msg::Value& message, LastPing& last) {
+double pings_per_s(const msg::Value& message, LastPing& last) {
   const msg::Value* ping = message.find("ping");
   const msg::Value* stamp = message.find("stamp_ns");
   const auto* number = ping == nullptr ? nullptr : ping->as<std::int64_t>();
@@ -142,7 +143,7 @@ const std::vector<msg::ConsoleScalar>& scalars_of(std::string_view type) {
 }
 
 double scalar_in(const msg::Value& message, std::string_view type, std::string_view field, LastPing& last) {
-  if (field == "ping_rate_hz" && message.find("ping_rate_hz") == nullptr) return ping_rate_hz(message, last);
+  if (field == "pings_per_s") return pings_per_s(message, last);
   if (const msg::Value* valid = message.find("valid"); valid != nullptr && field != "valid")
     if (const bool* flag = valid->as<bool>(); flag != nullptr && !*flag) return kNaN;
   const bool derived = message.at(field) == nullptr;

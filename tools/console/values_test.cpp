@@ -128,7 +128,7 @@ TEST_CASE("heading, roll, pitch, speed and depth follow from a pose") {
 
 TEST_CASE("a ping's depth is that of the valid sounding nearest to the axis, its rate that of its number") {
   Values values;
-  values.want({"bow/soundings.depth_m", "bow/soundings.ping_rate_hz"}, kTypes);
+  values.want({"bow/soundings.depth_m", "bow/soundings.pings_per_s"}, kTypes);
   for (int i = 0; i < 3; ++i) {
     msg::Soundings soundings;
     soundings.stamp_ns = i * 500'000'000;
@@ -142,7 +142,7 @@ TEST_CASE("a ping's depth is that of the valid sounding nearest to the axis, its
   const auto depth = series_of(values, "bow/soundings.depth_m");
   REQUIRE(depth.value.size() == 3);
   CHECK_THAT(depth.value[2], WithinAbs(22.0, 1e-9));
-  const auto rate = series_of(values, "bow/soundings.ping_rate_hz");
+  const auto rate = series_of(values, "bow/soundings.pings_per_s");
   REQUIRE(rate.value.size() == 3);
   CHECK(std::isnan(rate.value[0]));
   CHECK_THAT(rate.value[2], WithinAbs(8.0, 1e-9));

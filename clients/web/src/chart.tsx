@@ -18,12 +18,10 @@ import RegularShape from "ol/style/RegularShape";
 import Stroke from "ol/style/Stroke";
 import Style from "ol/style/Style";
 import { ConsoleCells, ConsoleTrack } from "./messages";
-import { DEPTHS } from "./palette";
+import { DEPTHS, ESTIMATE, TRUTH } from "./palette";
 import { watchChart } from "./store";
 
 const PLANE = new Projection({ code: "ensonify:plane", units: "m", extent: [-1e7, -1e7, 1e7, 1e7], axisOrientation: "enu" });
-const ESTIMATE = "#6fe3ff";
-const TRUTH = "#ffb454";
 const RULER = new Style({ stroke: new Stroke({ color: "#ffffff", width: 1.5, lineDash: [6, 4] }) });
 
 interface Cell {

@@ -1,6 +1,7 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, Health, View } from "./messages";
+import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, View } from "./messages";
+import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
 
 export const connected = signal(false);
@@ -48,6 +49,21 @@ export function watchChart(take: (news: ConsoleCells | ConsoleTrack) => void): (
   };
 }
 
+const numbers = new Map<object, string[]>(); // that a pane asks for
+/** Whether there are numbers to be drawn over time. */
+export const hasValues = () => (state.value?.topics ?? []).some((topic) => topic.name === VALUES);
+const VALUES = "values";
+const MOST_VALUES = 32;
+
+/** All numbers (TOPIC.field) that a pane shows from now on. */
+export function wantValues(pane: object, names: string[]) {
+  if (names.length) numbers.set(pane, names);
+  else numbers.delete(pane);
+  watchAll();
+}
+
+const wantedValues = () => [...new Set([...numbers.values()].flat())].slice(0, MOST_VALUES);
+
 export function viewTopics(): ConsoleTopic[] {
   return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
 }
@@ -57,8 +73,11 @@ const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db:
 function watchAll() {
   const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
-  const states = small.slice(0, 62 - heads.length).map(({ name }) => plain(name));
-  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...(chart ? CHART.map(plain) : []), ...states] });
+  const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
+  const values = wantedValues();
+  keepSeries(values);
+  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : [])].map(plain);
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
 }
 
 /** Opens a topic for a pane; the result closes it. */
@@ -101,6 +120,9 @@ function take(frame: Frame) {
   } else if (frame.type === "console_cells/1" || frame.type === "console_track/1") {
     chart?.(frame.content as ConsoleCells | ConsoleTrack);
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
+  } else if (frame.type === "console_values/1") {
+    simTime_s.value = Math.max(simTime_s.value, takeValues(frame.content as ConsoleValues));
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
   } else if (frame.type === "clock_health/1") {
@@ -112,6 +134,8 @@ function take(frame: Frame) {
     if (other) {
       health.value = {};
       clock.value = null;
+      clearSeries();
+      simTime_s.value = 0;
       shown.value = null;
     }
     state.value = fresh;
