@@ -101,6 +101,15 @@ def voyage(seconds=20.0, rate_hz=5.0, gap_s=(8.0, 12.0)):
         yield "echo/altitude", ensonify.Altitude(stamp_ns=int(t_s * 1e9), valid=answers, range_m=30.0 - t_s if answers else 0.0)
 
 
+def mission(seconds=20.0, rate_hz=5.0):
+    """A runline on which the vehicle of voyage() is 7.25 m to port at first and wanders to starboard by 0.5 m/s; 4 m of it go by a second."""
+    for i in range(int(seconds * rate_hz)):
+        t_s = i / rate_hz
+        yield "pilot/mission", ensonify.MissionState(stamp_ns=int(t_s * 1e9), state="on_line", line=2, line_count=7, line_name="<i>NW 3</i>",
+                                                     cross_track_m=-7.25 + 0.5 * t_s, distance_to_go_m=500.0 - 4.0 * t_s)
+        yield "pilot/guidance", ensonify.Guidance(stamp_ns=int(t_s * 1e9), heading_grid_rad=np.radians(123.0), speed_mps=3.5)
+
+
 def write_record(file, *streams, declares=None):
     """In the order of time."""
     messages = sorted((message for stream in streams for message in stream), key=lambda m: m[1].stamp_ns)

@@ -2,6 +2,7 @@
 import { render } from "preact";
 import { answer, begin, connected, hasChart, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
 import { ChartPane } from "./chart";
+import { hasHelm, HelmPane } from "./helm";
 import { NumbersPane } from "./numbers";
 import { Head, HealthPane } from "./panes";
 
@@ -52,12 +53,14 @@ function Bar() {
 
 const CHART = "chart";
 const NUMBERS = "numbers";
-const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : [])];
+const HELM = "helm";
+const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : [])];
 const panes = () => shown.value ?? [...viewTopics().slice(0, 2).map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
 
 function pane(name: string) {
   if (name === CHART) return <ChartPane />;
   if (name === NUMBERS) return <NumbersPane />;
+  if (name === HELM) return <HelmPane />;
   return <Head topic={name} />;
 }
 

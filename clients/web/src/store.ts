@@ -1,6 +1,6 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, View } from "./messages";
+import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
 import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
 
@@ -12,6 +12,8 @@ export const link = signal<ConsoleFlow | null>(null);
 export const answer = signal("");
 export const simTime_s = signal(0);
 export const health = signal<Record<string, Health>>({});
+/** What missions are doing, by topic. */
+export const missions = signal<Record<string, MissionState>>({});
 export const clock = signal<ClockHealth | null>(null);
 /** Topics whose panes are shown; null: those of the layout. */
 export const shown = signal<string[] | null>(null);
@@ -62,6 +64,13 @@ export function wantValues(pane: object, names: string[]) {
   watchAll();
 }
 
+let missionTopics: string[] = [];
+/** Topics of mission_state/1 that are shown from now on. */
+export function wantMissions(topics: string[]) {
+  missionTopics = topics;
+  watchAll();
+}
+
 const wantedValues = () => [...new Set([...numbers.values()].flat())].slice(0, MOST_VALUES);
 
 export function viewTopics(): ConsoleTopic[] {
@@ -76,7 +85,7 @@ function watchAll() {
   const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
   const values = wantedValues();
   keepSeries(values);
-  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : [])].map(plain);
+  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics].map(plain);
   wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
 }
 
@@ -125,6 +134,8 @@ function take(frame: Frame) {
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
+  } else if (frame.type === "mission_state/1") {
+    missions.value = { ...missions.value, [frame.topic]: frame.content as MissionState };
   } else if (frame.type === "clock_health/1") {
     clock.value = frame.content as ClockHealth;
     simTime_s.value = clock.value.stamp_ns * 1e-9;
@@ -134,6 +145,7 @@ function take(frame: Frame) {
     if (other) {
       health.value = {};
       clock.value = null;
+      missions.value = {};
       clearSeries();
       simTime_s.value = 0;
       shown.value = null;
