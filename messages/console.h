@@ -223,6 +223,40 @@ struct ConsoleValues {
   }
 };
 
+/// Something that an operator has to know of.
+struct ConsoleAlarm {
+  std::string kind;
+  std::string source;
+  std::string text;
+  bool active = false;
+  std::int64_t raised = 0;
+  std::int64_t since_ns = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("kind", "", "no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed", self.kind);
+    visit("source", "", "name of the process, topic or folder that it is about", self.source);
+    visit("text", "", "what is the matter, in one line", self.text);
+    visit("active", "", "true while its cause lasts; what happens at a moment is never active", self.active);
+    visit("raised", "1", "number of times that it was raised; one that is higher needs another acknowledgement",
+          self.raised);
+    visit("since_ns", "ns", "sim time at which it was raised last", self.since_ns);
+  }
+};
+
+struct ConsoleAlarms {
+  static constexpr const char* kType = "console_alarms/1";
+  static constexpr const char* kAbout = "All alarms of a run, those that have passed as well.";
+  std::int64_t generation = 0;
+  std::vector<ConsoleAlarm> alarms;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; acknowledgements of another one are void", self.generation);
+    visit("alarms", "", "alarms, at most 64", self.alarms);
+  }
+};
+
 struct ConsoleEnter {
   static constexpr const char* kType = "console_enter/1";
   static constexpr const char* kAbout = "A viewer's first message, within 2 s.";

@@ -1,6 +1,7 @@
 #include "tools/console/desk.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "components/view/ping_view.h"
 #include "messages/clock.h"
@@ -14,6 +15,8 @@ namespace ensonify::console {
 namespace {
 
 constexpr std::chrono::milliseconds kPollBudget{4};
+constexpr std::chrono::milliseconds kAlarmsEvery{250};
+constexpr std::chrono::seconds kDiskEvery{5};
 constexpr std::size_t kKept = 8;      // pictures that several viewers may share
 constexpr std::size_t kFinds = 16;    // pings of a head whose detections may belong to a picture that is still to come
 constexpr std::size_t kFanBeams = 3;  // a head with fewer beams draws lines
@@ -80,10 +83,12 @@ void Desk::ask_source() {
     const std::string made = soundings ? kCellsTopic : is_track(entry.second) ? kTrackTopic : "";
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
-             (soundings && watches_view_of(*flow, process_of(topic)));
+             (soundings && watches_view_of(*flow, process_of(topic))) ||
+             (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
   }
+  alarms_.keep(wanted);
   source_->want(wanted);
 }
 
@@ -97,16 +102,18 @@ void Desk::refresh() {
     topic.name = view_topic_of(topic.name);
     topic.type = msg::View::kType;
   }
-  bool cells = false, tracks = false;
+  bool cells = false, tracks = false, alarms = false;
   for (const auto& [topic, type] : type_of_) {
     cells = cells || type == msg::Soundings::kType;
     tracks = tracks || is_track(type);
+    alarms = alarms || Alarms::needs(type);
   }
   std::set<std::string> types;
   for (const auto& [topic, type] : type_of_) types.insert(type);
   for (const std::string& type : types)
     if (!scalars_of(type).empty()) state_.types.push_back({type, scalars_of(type)});
   if (!state_.types.empty()) state_.topics.push_back({kValuesTopic, msg::ConsoleValues::kType, "", ""});
+  if (alarms) state_.topics.push_back({kAlarmsTopic, msg::ConsoleAlarms::kType, "", ""});
   if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
   if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
@@ -124,10 +131,13 @@ bool Desk::poll(WallTime now) {
   if (fresh.kind == "run" && was_away && fresh.state == "running") {  // another run of that name
     survey_.clear();
     values_.clear();
+    alarms_.clear();
     newest_.clear();
     finds_.clear();
     fault_.clear();
   }
+  watch_disk(now);
+  offer_alarms(now);
   const bool topics_changed = fresh.topics.size() != type_of_.size();
   if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
       fresh.speed == state_.speed && fresh.name == state_.name)
@@ -135,6 +145,25 @@ bool Desk::poll(WallTime now) {
   refresh();
   if (topics_changed) ask_source();
   return true;
+}
+
+void Desk::watch_disk(WallTime now) {
+  if (state_.kind != "run" || state_.state != "running" || now - disk_seen_ < kDiskEvery) return;
+  disk_seen_ = now;
+  std::error_code error;
+  const auto space = std::filesystem::space(source_->folder(), error);
+  if (!error) alarms_.disk(source_->folder(), space.available);
+}
+
+void Desk::offer_alarms(WallTime now) {
+  if (now - alarms_said_ < kAlarmsEvery || !alarms_.changed()) return;
+  alarms_said_ = now;
+  msg::Packet packet{kAlarmsTopic, {}, msg::encode(alarms_.message()), {}};
+  packet.envelope.type_hash = msg::type_hash(msg::ConsoleAlarms::kType);
+  packet.envelope.seq = alarms_seq_++;
+  const Offer offer{kAlarmsTopic, Way::state, std::make_shared<const msg::Packet>(std::move(packet)), now};
+  newest_[kAlarmsTopic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
 }
 
 void Desk::take(msg::Packet packet, WallTime now) {
@@ -153,6 +182,7 @@ void Desk::take(msg::Packet packet, WallTime now) {
   }
   try {
     values_.take(type->second, packet);
+    alarms_.take(type->second, packet);
     survey_.take(type->second, packet);
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "messages/soundings.h"
+#include "tools/console/alarms.h"
 #include "tools/console/flow.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
@@ -46,6 +47,8 @@ class Desk {
   void take(msg::Packet packet, WallTime now);
   void refresh();
   void ask_source();
+  void watch_disk(WallTime now);
+  void offer_alarms(WallTime now);
 
   std::unique_ptr<Source> source_;
   std::list<Flow*> viewers_;
@@ -56,6 +59,10 @@ class Desk {
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
   Values values_;
+  Alarms alarms_;
+  std::uint64_t alarms_seq_ = 0;
+  WallTime alarms_said_;
+  WallTime disk_seen_;
   std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
 
   struct Made {  // the last pictures, for several viewers of one size
@@ -66,10 +73,11 @@ class Desk {
   std::list<Made> made_;
 };
 
-/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1.
+/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1, console_alarms/1.
 inline constexpr const char* kCellsTopic = "cells";
 inline constexpr const char* kTrackTopic = "track";
 inline constexpr const char* kValuesTopic = "values";
+inline constexpr const char* kAlarmsTopic = "alarms";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

@@ -22,6 +22,8 @@ __all__ = [
     "ConsoleTrack",
     "ConsoleSeries",
     "ConsoleValues",
+    "ConsoleAlarm",
+    "ConsoleAlarms",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -328,6 +330,39 @@ class ConsoleValues(Message):
     TYPE = "console_values/1"
     generation: int = 0
     series: list = list_of(ConsoleSeries)
+
+
+@dataclass(eq=False)
+class ConsoleAlarm(Struct):
+    """Something that an operator has to know of.
+
+    kind: no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed
+    source: name of the process, topic or folder that it is about
+    text: what is the matter, in one line
+    active: true while its cause lasts; what happens at a moment is never active
+    raised [1]: number of times that it was raised; one that is higher needs another acknowledgement
+    since_ns [ns]: sim time at which it was raised last
+    """
+
+    kind: str = ""
+    source: str = ""
+    text: str = ""
+    active: bool = False
+    raised: int = 0
+    since_ns: int = 0
+
+
+@dataclass(eq=False)
+class ConsoleAlarms(Message):
+    """All alarms of a run, those that have passed as well.
+
+    generation [1]: number of the run; acknowledgements of another one are void
+    alarms: alarms, at most 64
+    """
+
+    TYPE = "console_alarms/1"
+    generation: int = 0
+    alarms: list = list_of(ConsoleAlarm)
 
 
 @dataclass(eq=False)
@@ -1646,6 +1681,7 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleCells,
     ConsoleTrack,
     ConsoleValues,
+    ConsoleAlarms,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

@@ -1,6 +1,7 @@
 // The console's page.
 import { render } from "preact";
 import { answer, begin, connected, hasChart, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { Alarms } from "./alarms";
 import { ChartPane } from "./chart";
 import { hasHelm, HelmPane } from "./helm";
 import { NumbersPane } from "./numbers";
@@ -90,6 +91,7 @@ function Page() {
   return (
     <>
       <Bar />
+      <Alarms />
       <div class={`panes n${panes().length}`}>
         {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{pane(topic)}</section>)}
         <section class="pane health"><HealthPane /></section>

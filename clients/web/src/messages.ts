@@ -187,6 +187,28 @@ export interface ConsoleValues {
   series: ConsoleSeries[];
 }
 
+export interface ConsoleAlarm {
+  /** no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed */
+  kind: string;
+  /** name of the process, topic or folder that it is about */
+  source: string;
+  /** what is the matter, in one line */
+  text: string;
+  /** true while its cause lasts; what happens at a moment is never active */
+  active: boolean;
+  /** number of times that it was raised; one that is higher needs another acknowledgement (1) */
+  raised: number;
+  /** sim time at which it was raised last (ns) */
+  since_ns: number;
+}
+
+export interface ConsoleAlarms {
+  /** number of the run; acknowledgements of another one are void (1) */
+  generation: number;
+  /** alarms, at most 64 */
+  alarms: ConsoleAlarm[];
+}
+
 export interface ConsoleEnter {
   /** token of the URL to view or to control */
   token: string;
@@ -1194,6 +1216,7 @@ export const TYPES: Record<string, string> = {
   "d8f4b048f8b65b04": "console_cells/1",
   "05273cc6f0f7bf56": "console_track/1",
   "68fb0375e540f86d": "console_values/1",
+  "32acf0c61242d64d": "console_alarms/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",

@@ -1,6 +1,7 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
+import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
+import { clearAlarms, takeAlarms } from "./alarms";
 import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
 
@@ -55,6 +56,7 @@ const numbers = new Map<object, string[]>(); // that a pane asks for
 /** Whether there are numbers to be drawn over time. */
 export const hasValues = () => (state.value?.topics ?? []).some((topic) => topic.name === VALUES);
 const VALUES = "values";
+const ALARMS = "alarms";
 const MOST_VALUES = 32;
 
 /** All numbers (TOPIC.field) that a pane shows from now on. */
@@ -85,7 +87,7 @@ function watchAll() {
   const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
   const values = wantedValues();
   keepSeries(values);
-  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics].map(plain);
+  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS].map(plain);
   wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
 }
 
@@ -134,6 +136,8 @@ function take(frame: Frame) {
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
+  } else if (frame.type === "console_alarms/1") {
+    takeAlarms(frame.content as ConsoleAlarms);
   } else if (frame.type === "mission_state/1") {
     missions.value = { ...missions.value, [frame.topic]: frame.content as MissionState };
   } else if (frame.type === "clock_health/1") {
@@ -146,6 +150,7 @@ function take(frame: Frame) {
       health.value = {};
       clock.value = null;
       missions.value = {};
+      clearAlarms();
       clearSeries();
       simTime_s.value = 0;
       shown.value = null;
