@@ -23,7 +23,8 @@ using AllMessages =
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Transmit, SonarSettings, Tile, TileRelease, Mesh,
                MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
                ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack, ConsoleValues, ConsoleAlarms,
-               ConsoleEnter, ConsoleWatch, ConsoleDrawn, ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
+               ConsoleLog, ConsoleRelief, ConsoleEnter, ConsoleWatch, ConsoleDrawn, ConsoleOpen, ConsoleCommand,
+               ConsoleAnswer>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

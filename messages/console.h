@@ -236,7 +236,7 @@ struct ConsoleAlarm {
   static void fields(Self& self, Visit&& visit) {
     visit("kind", "", "no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed", self.kind);
     visit("source", "", "name of the process, topic or folder that it is about", self.source);
-    visit("text", "", "what is the matter, in one line", self.text);
+    visit("text", "", "cause, in one line", self.text);
     visit("active", "", "true while its cause lasts; what happens at a moment is never active", self.active);
     visit("raised", "1", "number of times that it was raised; one that is higher needs another acknowledgement",
           self.raised);
@@ -254,6 +254,67 @@ struct ConsoleAlarms {
   static void fields(Self& self, Visit&& visit) {
     visit("generation", "1", "number of the run; acknowledgements of another one are void", self.generation);
     visit("alarms", "", "alarms, at most 64", self.alarms);
+  }
+};
+
+struct ConsoleLogLine {
+  std::string process;
+  std::string level;
+  std::string text;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("process", "", "name of the process that wrote it", self.process);
+    visit("level", "", "error, warning or info, by the words of the line", self.level);
+    visit("text", "", "line, at most 500 bytes", self.text);
+  }
+};
+
+struct ConsoleLog {
+  static constexpr const char* kType = "console_log/1";
+  static constexpr const char* kAbout = "New lines of the logs that a run's processes write, the newest last.";
+  std::int64_t generation = 0;
+  std::int64_t first = 0;
+  std::vector<ConsoleLogLine> lines;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; with another one all earlier lines are void", self.generation);
+    visit("first", "1", "index of the first of these lines, of all that were read", self.first);
+    visit("lines", "", "lines", self.lines);
+  }
+};
+
+struct ConsoleRelief {
+  static constexpr const char* kType = "console_relief/1";
+  static constexpr const char* kAbout =
+      "The seabed of chart/1 as shaded relief with contours, and where the world lies.";
+  std::string projection;
+  double west_m = 0.0;
+  double south_m = 0.0;
+  double spacing_m = 1.0;
+  Array<std::uint8_t> shade;
+  double exaggeration = 1.0;
+  double contour_step_m = 0.0;
+  Array<float> contour_depth_m;
+  Array<float> contour_m;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("projection", "", "map of the world's plane, in the words of PROJ: east and north in metres on WGS 84",
+          self.projection);
+    visit("west_m", "m", "world east of the western posts", self.west_m);
+    visit("south_m", "m", "world north of the southern posts", self.south_m);
+    visit("spacing_m", "m", "distance between posts", self.spacing_m);
+    visit(
+        "shade", "1",
+        "brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; "
+        "0: nothing is known",
+        self.shade);
+    visit("exaggeration", "1", "factor by which slopes are steeper in the shading than they are", self.exaggeration);
+    visit("contour_step_m", "m", "difference of depth between contours", self.contour_step_m);
+    visit("contour_depth_m", "m", "depth of each piece of a contour, below chart datum", self.contour_depth_m);
+    visit("contour_m", "m", "straight pieces of contours (piece x 4): east and north of both ends", self.contour_m);
   }
 };
 

@@ -110,9 +110,20 @@ def mission(seconds=20.0, rate_hz=5.0):
         yield "pilot/guidance", ensonify.Guidance(stamp_ns=int(t_s * 1e9), heading_grid_rad=np.radians(123.0), speed_mps=3.5)
 
 
+CHART_ORIGIN = (54.25, -3.5)  # degrees north and east
+
+
+def seabed_chart():
+    """A plane that falls by 0.1 m a metre to the east, 10 m deep at east -200 m and 50 m at 200 m; 41 x 41 posts of 10 m about the origin."""
+    east_m = np.arange(-200.0, 201.0, 10.0)
+    height_m = np.tile(-(30.0 + 0.1 * east_m), (41, 1)).astype("f4")
+    yield "pager/chart", ensonify.Chart(origin_latitude_deg=CHART_ORIGIN[0], origin_longitude_deg=CHART_ORIGIN[1], west_m=-200.0, south_m=-200.0, east_m=200.0,
+                                        north_m=200.0, shallowest_m=10.0, deepest_m=50.0, spacing_m=10.0, height_m=height_m)
+
+
 def write_record(file, *streams, declares=None):
     """In the order of time."""
-    messages = sorted((message for stream in streams for message in stream), key=lambda m: m[1].stamp_ns)
+    messages = sorted((message for stream in streams for message in stream), key=lambda m: getattr(m[1], "stamp_ns", 0))
     return synthetic_heads.write(file, messages, declares)
 
 

@@ -9,6 +9,8 @@
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "messages/soundings.h"
+#include "messages/terrain.h"
+#include "tools/console/relief.h"
 
 namespace ensonify::console {
 
@@ -16,6 +18,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollBudget{4};
 constexpr std::chrono::milliseconds kAlarmsEvery{250};
+constexpr std::chrono::milliseconds kLogsEvery{250};
+constexpr std::chrono::seconds kChartEvery{5};
 constexpr std::chrono::seconds kDiskEvery{5};
 constexpr std::size_t kKept = 8;      // pictures that several viewers may share
 constexpr std::size_t kFinds = 16;    // pings of a head whose detections may belong to a picture that is still to come
@@ -38,6 +42,9 @@ std::size_t beams_of(const msg::Packet& packet) {
 }
 
 std::string process_of(const std::string& topic) { return topic.substr(0, topic.find('/')); }
+
+/// Where the processes of a run write their logs.
+std::string log_folder(const Source& source) { return source.folder().empty() ? "" : source.folder() + "/log"; }
 
 bool watches_view_of(const Flow& flow, const std::string& head) {
   const std::string begin = head + "/" + std::string(kView);
@@ -84,6 +91,7 @@ void Desk::ask_source() {
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
              (soundings && watches_view_of(*flow, process_of(topic))) ||
+             (entry.second == msg::Chart::kType && flow->watches(kReliefTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
@@ -102,11 +110,13 @@ void Desk::refresh() {
     topic.name = view_topic_of(topic.name);
     topic.type = msg::View::kType;
   }
-  bool cells = false, tracks = false, alarms = false;
+  std::error_code error;
+  bool cells = false, tracks = false, alarms = false, chart = false;
   for (const auto& [topic, type] : type_of_) {
     cells = cells || type == msg::Soundings::kType;
     tracks = tracks || is_track(type);
     alarms = alarms || Alarms::needs(type);
+    chart = chart || type == msg::Chart::kType;
   }
   std::set<std::string> types;
   for (const auto& [topic, type] : type_of_) types.insert(type);
@@ -114,6 +124,9 @@ void Desk::refresh() {
     if (!scalars_of(type).empty()) state_.types.push_back({type, scalars_of(type)});
   if (!state_.types.empty()) state_.topics.push_back({kValuesTopic, msg::ConsoleValues::kType, "", ""});
   if (alarms) state_.topics.push_back({kAlarmsTopic, msg::ConsoleAlarms::kType, "", ""});
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(log_folder(*source_), error)))
+    state_.topics.push_back({kLogTopic, msg::ConsoleLog::kType, "", ""});
+  if (chart) state_.topics.push_back({kReliefTopic, msg::ConsoleRelief::kType, "", ""});
   if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
   if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
@@ -132,11 +145,15 @@ bool Desk::poll(WallTime now) {
     survey_.clear();
     values_.clear();
     alarms_.clear();
+    logs_.clear();
+    has_relief_ = false;
     newest_.clear();
     finds_.clear();
     fault_.clear();
   }
   watch_disk(now);
+  read_logs(now);
+  find_chart(now);
   offer_alarms(now);
   const bool topics_changed = fresh.topics.size() != type_of_.size();
   if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
@@ -153,6 +170,31 @@ void Desk::watch_disk(WallTime now) {
   std::error_code error;
   const auto space = std::filesystem::space(source_->folder(), error);
   if (!error) alarms_.disk(source_->folder(), space.available);
+}
+
+void Desk::read_logs(WallTime now) {
+  const auto watches = [](const Flow* flow) { return flow->watches(kLogTopic); };
+  if (now - logs_read_ < kLogsEvery || std::none_of(viewers_.begin(), viewers_.end(), watches)) return;
+  logs_read_ = now;
+  logs_.read(log_folder(*source_));
+}
+
+/// A chart is published once, before anybody watches: then it is in the record.
+void Desk::find_chart(WallTime now) {
+  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic); };
+  if (has_relief_ || now - chart_sought_ < kChartEvery || std::none_of(viewers_.begin(), viewers_.end(), watches))
+    return;
+  chart_sought_ = now;
+  if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) offer_relief(*chart, now);
+}
+
+void Desk::offer_relief(const msg::Chart& chart, WallTime now) {
+  has_relief_ = true;
+  msg::Packet packet{kReliefTopic, {}, msg::encode(relief_of(chart)), {}};
+  packet.envelope.type_hash = msg::type_hash(msg::ConsoleRelief::kType);
+  const Offer offer{kReliefTopic, Way::picture, std::make_shared<const msg::Packet>(std::move(packet)), now};
+  newest_[kReliefTopic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
 }
 
 void Desk::offer_alarms(WallTime now) {
@@ -183,6 +225,7 @@ void Desk::take(msg::Packet packet, WallTime now) {
   try {
     values_.take(type->second, packet);
     alarms_.take(type->second, packet);
+    if (type->second == msg::Chart::kType) offer_relief(msg::decode<msg::Chart>(packet.body, packet.body.size()), now);
     survey_.take(type->second, packet);
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "messages/soundings.h"
+#include "messages/terrain.h"
 #include "tools/console/alarms.h"
 #include "tools/console/flow.h"
+#include "tools/console/logs.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
 #include "tools/console/values.h"
@@ -38,6 +40,7 @@ class Desk {
   const Survey& survey() const { return survey_; }
   /// What kValuesTopic is made of.
   const Values& values() const { return values_; }
+  const Logs& logs() const { return logs_; }
   void command(const msg::ConsoleCommand& command) { source_->command(command); }
 
   /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
@@ -48,6 +51,9 @@ class Desk {
   void refresh();
   void ask_source();
   void watch_disk(WallTime now);
+  void read_logs(WallTime now);
+  void find_chart(WallTime now);
+  void offer_relief(const msg::Chart& chart, WallTime now);
   void offer_alarms(WallTime now);
 
   std::unique_ptr<Source> source_;
@@ -59,6 +65,10 @@ class Desk {
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
   Values values_;
+  bool has_relief_ = false;
+  WallTime chart_sought_;
+  Logs logs_;
+  WallTime logs_read_;
   Alarms alarms_;
   std::uint64_t alarms_seq_ = 0;
   WallTime alarms_said_;
@@ -73,11 +83,14 @@ class Desk {
   std::list<Made> made_;
 };
 
-/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1, console_alarms/1.
+/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1,
+/// console_alarms/1, console_log/1.
 inline constexpr const char* kCellsTopic = "cells";
 inline constexpr const char* kTrackTopic = "track";
 inline constexpr const char* kValuesTopic = "values";
 inline constexpr const char* kAlarmsTopic = "alarms";
+inline constexpr const char* kReliefTopic = "relief";
+inline constexpr const char* kLogTopic = "log";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

@@ -79,6 +79,7 @@ void Viewer::take(const std::string& type, const msg::Value& message, WallTime n
   if (flow_.answered(now)) {
     seen_ = {};
     seen_values_ = {};
+    seen_log_ = {};
     send_state();
     if (desk_) desk_->settle(flow_);
   }
@@ -97,9 +98,11 @@ void Viewer::take(const std::string& type, const msg::Value& message, WallTime n
   if (type == msg::ConsoleWatch::kType) {
     const auto wish = read<msg::ConsoleWatch>(message);
     const bool cells = flow_.watches(kCellsTopic), track = flow_.watches(kTrackTopic);
+    const bool log = flow_.watches(kLogTopic);
     flow_.watch(wish, now);
     if (flow_.watches(kCellsTopic) && !cells) seen_.cells = 0;
     if (flow_.watches(kTrackTopic) && !track) seen_.points.clear();
+    if (flow_.watches(kLogTopic) && !log) seen_log_ = {};
     const auto& values = wish.values;
     std::erase_if(seen_values_.points, [&](const auto& entry) {
       return !flow_.watches(kValuesTopic) || std::find(values.begin(), values.end(), entry.first) == values.end();
@@ -129,6 +132,7 @@ void Viewer::sit_at(const std::string& id) {
   desk_ = desk;
   seen_ = {};
   seen_values_ = {};
+  seen_log_ = {};
   if (desk_) {
     desk_->add(flow_);
     desk_->settle(flow_);
@@ -182,6 +186,8 @@ void Viewer::fetch_news() {
     for (const msg::ConsoleTrack& track : desk_->survey().new_tracks(seen_)) offer_own(kTrackTopic, track, Way::line);
   if (flow_.watches(kValuesTopic) && !flow_.has_waiting(kValuesTopic))
     if (const auto news = desk_->values().news(flow_.values(), seen_values_)) offer_own(kValuesTopic, *news, Way::line);
+  if (flow_.watches(kLogTopic) && !flow_.has_waiting(kLogTopic))
+    if (const auto log = desk_->logs().news(seen_log_)) offer_own(kLogTopic, *log, Way::line);
 }
 
 void Viewer::push(WallTime now) {

@@ -6,6 +6,7 @@
 
 #include "tools/console/doors.h"
 #include "tools/console/flow.h"
+#include "tools/console/logs.h"
 #include "tools/console/server/server.h"
 #include "tools/console/survey.h"
 #include "tools/console/values.h"
@@ -50,6 +51,7 @@ class Viewer : public Visitor {
   Flow flow_;
   Survey::Seen seen_;
   Values::Seen seen_values_;
+  Logs::Seen seen_log_;
   WallTime fetched_;
   bool busy_ = false;  // a message is on its way into the socket
   std::uint64_t seq_ = 0;

@@ -24,6 +24,9 @@ __all__ = [
     "ConsoleValues",
     "ConsoleAlarm",
     "ConsoleAlarms",
+    "ConsoleLogLine",
+    "ConsoleLog",
+    "ConsoleRelief",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -338,7 +341,7 @@ class ConsoleAlarm(Struct):
 
     kind: no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed
     source: name of the process, topic or folder that it is about
-    text: what is the matter, in one line
+    text: cause, in one line
     active: true while its cause lasts; what happens at a moment is never active
     raised [1]: number of times that it was raised; one that is higher needs another acknowledgement
     since_ns [ns]: sim time at which it was raised last
@@ -363,6 +366,62 @@ class ConsoleAlarms(Message):
     TYPE = "console_alarms/1"
     generation: int = 0
     alarms: list = list_of(ConsoleAlarm)
+
+
+@dataclass(eq=False)
+class ConsoleLogLine(Struct):
+    """Part of a message: ConsoleLogLine.
+
+    process: name of the process that wrote it
+    level: error, warning or info, by the words of the line
+    text: line, at most 500 bytes
+    """
+
+    process: str = ""
+    level: str = ""
+    text: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleLog(Message):
+    """New lines of the logs that a run's processes write, the newest last.
+
+    generation [1]: number of the run; with another one all earlier lines are void
+    first [1]: index of the first of these lines, of all that were read
+    lines: lines
+    """
+
+    TYPE = "console_log/1"
+    generation: int = 0
+    first: int = 0
+    lines: list = list_of(ConsoleLogLine)
+
+
+@dataclass(eq=False)
+class ConsoleRelief(Message):
+    """The seabed of chart/1 as shaded relief with contours, and where the world lies.
+
+    projection: map of the world's plane, in the words of PROJ: east and north in metres on WGS 84
+    west_m [m]: world east of the western posts
+    south_m [m]: world north of the southern posts
+    spacing_m [m]: distance between posts
+    shade [1]: brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; 0: nothing is known
+    exaggeration [1]: factor by which slopes are steeper in the shading than they are
+    contour_step_m [m]: difference of depth between contours
+    contour_depth_m [m]: depth of each piece of a contour, below chart datum
+    contour_m [m]: straight pieces of contours (piece x 4): east and north of both ends
+    """
+
+    TYPE = "console_relief/1"
+    projection: str = ""
+    west_m: float = 0.0
+    south_m: float = 0.0
+    spacing_m: float = 1.0
+    shade: np.ndarray = array("u1")
+    exaggeration: float = 1.0
+    contour_step_m: float = 0.0
+    contour_depth_m: np.ndarray = array("f4")
+    contour_m: np.ndarray = array("f4")
 
 
 @dataclass(eq=False)
@@ -1682,6 +1741,8 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleTrack,
     ConsoleValues,
     ConsoleAlarms,
+    ConsoleLog,
+    ConsoleRelief,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

@@ -1,9 +1,10 @@
 // The console's page.
 import { render } from "preact";
-import { answer, begin, connected, hasChart, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { answer, begin, connected, hasChart, hasLog, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
 import { Alarms } from "./alarms";
 import { ChartPane } from "./chart";
 import { hasHelm, HelmPane } from "./helm";
+import { LogsPane } from "./logs";
 import { NumbersPane } from "./numbers";
 import { Head, HealthPane } from "./panes";
 
@@ -55,12 +56,14 @@ function Bar() {
 const CHART = "chart";
 const NUMBERS = "numbers";
 const HELM = "helm";
-const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : [])];
+const LOGS = "logs";
+const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : []), ...(hasLog() ? [LOGS] : [])];
 const panes = () => shown.value ?? [...viewTopics().slice(0, 2).map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
 
 function pane(name: string) {
   if (name === CHART) return <ChartPane />;
   if (name === NUMBERS) return <NumbersPane />;
+  if (name === LOGS) return <LogsPane />;
   if (name === HELM) return <HelmPane />;
   return <Head topic={name} />;
 }

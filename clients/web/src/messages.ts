@@ -192,7 +192,7 @@ export interface ConsoleAlarm {
   kind: string;
   /** name of the process, topic or folder that it is about */
   source: string;
-  /** what is the matter, in one line */
+  /** cause, in one line */
   text: string;
   /** true while its cause lasts; what happens at a moment is never active */
   active: boolean;
@@ -207,6 +207,45 @@ export interface ConsoleAlarms {
   generation: number;
   /** alarms, at most 64 */
   alarms: ConsoleAlarm[];
+}
+
+export interface ConsoleLogLine {
+  /** name of the process that wrote it */
+  process: string;
+  /** error, warning or info, by the words of the line */
+  level: string;
+  /** line, at most 500 bytes */
+  text: string;
+}
+
+export interface ConsoleLog {
+  /** number of the run; with another one all earlier lines are void (1) */
+  generation: number;
+  /** index of the first of these lines, of all that were read (1) */
+  first: number;
+  /** lines */
+  lines: ConsoleLogLine[];
+}
+
+export interface ConsoleRelief {
+  /** map of the world's plane, in the words of PROJ: east and north in metres on WGS 84 */
+  projection: string;
+  /** world east of the western posts (m) */
+  west_m: number;
+  /** world north of the southern posts (m) */
+  south_m: number;
+  /** distance between posts (m) */
+  spacing_m: number;
+  /** brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; 0: nothing is known (1) */
+  shade: Numbers<Uint8Array>;
+  /** factor by which slopes are steeper in the shading than they are (1) */
+  exaggeration: number;
+  /** difference of depth between contours (m) */
+  contour_step_m: number;
+  /** depth of each piece of a contour, below chart datum (m) */
+  contour_depth_m: Numbers<Float32Array>;
+  /** straight pieces of contours (piece x 4): east and north of both ends (m) */
+  contour_m: Numbers<Float32Array>;
 }
 
 export interface ConsoleEnter {
@@ -1217,6 +1256,8 @@ export const TYPES: Record<string, string> = {
   "05273cc6f0f7bf56": "console_track/1",
   "68fb0375e540f86d": "console_values/1",
   "32acf0c61242d64d": "console_alarms/1",
+  "d2524f5428f6d0d3": "console_log/1",
+  "47dd42c4267b4152": "console_relief/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",

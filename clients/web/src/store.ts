@@ -1,6 +1,6 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
+import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleLog, ConsoleRelief, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
 import { clearAlarms, takeAlarms } from "./alarms";
 import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
@@ -38,11 +38,11 @@ let frameAsked = false;
 
 /** Whether soundings or positions are published. */
 export const hasChart = () => (state.value?.topics ?? []).some((topic) => CHART.includes(topic.name));
-const CHART = ["cells", "track"];
-let chart: ((news: ConsoleCells | ConsoleTrack) => void) | null = null;
+const CHART = ["cells", "track", "relief"];
+let chart: ((news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void) | null = null;
 
 /** Opens the chart's topics for a pane; the result closes them. */
-export function watchChart(take: (news: ConsoleCells | ConsoleTrack) => void): () => void {
+export function watchChart(take: (news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void): () => void {
   chart = take;
   watchAll();
   return () => {
@@ -57,6 +57,21 @@ const numbers = new Map<object, string[]>(); // that a pane asks for
 export const hasValues = () => (state.value?.topics ?? []).some((topic) => topic.name === VALUES);
 const VALUES = "values";
 const ALARMS = "alarms";
+const LOG = "log";
+let log: ((news: ConsoleLog) => void) | null = null;
+/** Whether logs of the run's processes can be read. */
+export const hasLog = () => (state.value?.topics ?? []).some((topic) => topic.name === LOG);
+
+/** Opens the logs for a pane; the result closes them. */
+export function watchLog(take: (news: ConsoleLog) => void): () => void {
+  log = take;
+  watchAll();
+  return () => {
+    log = null;
+    watchAll();
+  };
+}
+
 const MOST_VALUES = 32;
 
 /** All numbers (TOPIC.field) that a pane shows from now on. */
@@ -87,7 +102,7 @@ function watchAll() {
   const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
   const values = wantedValues();
   keepSeries(values);
-  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS].map(plain);
+  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS, ...(log ? [LOG] : [])].map(plain);
   wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
 }
 
@@ -128,14 +143,17 @@ function take(frame: Frame) {
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
-  } else if (frame.type === "console_cells/1" || frame.type === "console_track/1") {
-    chart?.(frame.content as ConsoleCells | ConsoleTrack);
+  } else if (frame.type === "console_cells/1" || frame.type === "console_relief/1" || frame.type === "console_track/1") {
+    chart?.(frame.content as ConsoleCells | ConsoleRelief | ConsoleTrack);
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "console_values/1") {
     simTime_s.value = Math.max(simTime_s.value, takeValues(frame.content as ConsoleValues));
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
+  } else if (frame.type === "console_log/1") {
+    log?.(frame.content as ConsoleLog);
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "console_alarms/1") {
     takeAlarms(frame.content as ConsoleAlarms);
   } else if (frame.type === "mission_state/1") {
