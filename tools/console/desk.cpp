@@ -43,6 +43,9 @@ std::size_t beams_of(const msg::Packet& packet) {
 
 std::string process_of(const std::string& topic) { return topic.substr(0, topic.find('/')); }
 
+/// From which latitude and longitude follow.
+bool places_world(const std::string& type) { return type == msg::Chart::kType || type == msg::Position::kType; }
+
 /// Where the processes of a run write their logs.
 std::string log_folder(const Source& source) { return source.folder().empty() ? "" : source.folder() + "/log"; }
 
@@ -91,7 +94,7 @@ void Desk::ask_source() {
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
              (soundings && watches_view_of(*flow, process_of(topic))) ||
-             (entry.second == msg::Chart::kType && flow->watches(kReliefTopic)) ||
+             (places_world(entry.second) && flow->watches(kReliefTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
@@ -116,7 +119,7 @@ void Desk::refresh() {
     cells = cells || type == msg::Soundings::kType;
     tracks = tracks || is_track(type);
     alarms = alarms || Alarms::needs(type);
-    chart = chart || type == msg::Chart::kType;
+    chart = chart || places_world(type);
   }
   std::set<std::string> types;
   for (const auto& [topic, type] : type_of_) types.insert(type);
@@ -146,7 +149,7 @@ bool Desk::poll(WallTime now) {
     values_.clear();
     alarms_.clear();
     logs_.clear();
-    has_relief_ = false;
+    has_map_ = has_relief_ = false;
     newest_.clear();
     finds_.clear();
     fault_.clear();
@@ -185,13 +188,17 @@ void Desk::find_chart(WallTime now) {
   if (has_relief_ || now - chart_sought_ < kChartEvery || std::none_of(viewers_.begin(), viewers_.end(), watches))
     return;
   chart_sought_ = now;
-  if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) offer_relief(*chart, now);
+  if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) {
+    has_relief_ = true;
+    offer_relief(relief_of(*chart), now);
+  }
 }
 
-void Desk::offer_relief(const msg::Chart& chart, WallTime now) {
-  has_relief_ = true;
-  msg::Packet packet{kReliefTopic, {}, msg::encode(relief_of(chart)), {}};
+void Desk::offer_relief(const msg::ConsoleRelief& relief, WallTime now) {
+  has_map_ = true;
+  msg::Packet packet{kReliefTopic, {}, msg::encode(relief), {}};
   packet.envelope.type_hash = msg::type_hash(msg::ConsoleRelief::kType);
+  packet.envelope.seq = relief_seq_++;
   const Offer offer{kReliefTopic, Way::picture, std::make_shared<const msg::Packet>(std::move(packet)), now};
   newest_[kReliefTopic] = offer;
   for (Flow* flow : viewers_) flow->offer(offer);
@@ -225,7 +232,12 @@ void Desk::take(msg::Packet packet, WallTime now) {
   try {
     values_.take(type->second, packet);
     alarms_.take(type->second, packet);
-    if (type->second == msg::Chart::kType) offer_relief(msg::decode<msg::Chart>(packet.body, packet.body.size()), now);
+    if (type->second == msg::Chart::kType) {
+      has_relief_ = true;
+      offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
+    } else if (type->second == msg::Position::kType && !has_map_) {
+      if (const auto map = map_of(msg::decode<msg::Position>(packet.body, packet.body.size()))) offer_relief(*map, now);
+    }
     survey_.take(type->second, packet);
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];

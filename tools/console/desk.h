@@ -53,7 +53,7 @@ class Desk {
   void watch_disk(WallTime now);
   void read_logs(WallTime now);
   void find_chart(WallTime now);
-  void offer_relief(const msg::Chart& chart, WallTime now);
+  void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
   void offer_alarms(WallTime now);
 
   std::unique_ptr<Source> source_;
@@ -65,6 +65,8 @@ class Desk {
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
   Values values_;
+  std::uint64_t relief_seq_ = 0;
+  bool has_map_ = false;
   bool has_relief_ = false;
   WallTime chart_sought_;
   Logs logs_;

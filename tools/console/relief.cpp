@@ -7,9 +7,11 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <vector>
 
 #include "components/record/reader.h"
+#include "kernels/base/frames/local_projection.h"
 #include "messages/codec.h"
 
 namespace ensonify::console {
@@ -19,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostMessages = 5000;  // at the start of a record
-constexpr int kMostRecords = 8;      // of a folder
+constexpr int kRounds = 6;
+constexpr int kMostRecords = 8;  // of a folder
 
 /// Heights of a chart by row (north) and column (east).
 class Posts {
@@ -37,6 +40,12 @@ class Posts {
  private:
   const msg::Chart& chart_;
 };
+
+/// As frames::LocalProjection, in the words of PROJ.
+std::string projection_of(const frames::Geodetic& origin) {
+  return fmt::format("+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs",
+                     origin.latitude_deg, origin.longitude_deg);
+}
 
 double slope(double before_m, double here_m, double after_m, double spacing_m) {
   if (std::isfinite(before_m) && std::isfinite(after_m)) return (after_m - before_m) / (2.0 * spacing_m);
@@ -122,9 +131,7 @@ double contour_step(double range_m) {
 
 msg::ConsoleRelief relief_of(const msg::Chart& chart) {
   msg::ConsoleRelief relief;
-  relief.projection =
-      fmt::format("+proj=tmerc +lat_0={:.12f} +lon_0={:.12f} +k=1 +x_0=0 +y_0=0 +ellps=WGS84 +units=m +no_defs",
-                  chart.origin_latitude_deg, chart.origin_longitude_deg);
+  relief.projection = projection_of({chart.origin_latitude_deg, chart.origin_longitude_deg});
   relief.west_m = chart.west_m;
   relief.south_m = chart.south_m;
   relief.spacing_m = chart.spacing_m;
@@ -139,6 +146,25 @@ msg::ConsoleRelief relief_of(const msg::Chart& chart) {
   relief.contour_step_m = contour_step(chart.deepest_m - chart.shallowest_m);
   add_contours(posts, relief.contour_step_m, relief);
   return relief;
+}
+
+std::optional<msg::ConsoleRelief> map_of(const msg::Position& position) {
+  frames::Geodetic origin{position.latitude_deg, position.longitude_deg};
+  if (origin.latitude_deg == 0.0 && origin.longitude_deg == 0.0) return std::nullopt;
+  const frames::Vec2 place_m{position.position_enu_m[0], position.position_enu_m[1]};
+  try {
+    // The origin from which that place has these degrees: each round corrects it by what is wrong there.
+    for (int round = 0; round < kRounds; ++round) {
+      const frames::Geodetic found = frames::LocalProjection(origin).geodetic_of(place_m);
+      origin.latitude_deg += position.latitude_deg - found.latitude_deg;
+      origin.longitude_deg += position.longitude_deg - found.longitude_deg;
+    }
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+  msg::ConsoleRelief map;
+  map.projection = projection_of(origin);
+  return map;
 }
 
 std::optional<msg::Chart> chart_in(const std::string& file_or_folder) {

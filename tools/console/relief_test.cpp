@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/base/frames/local_projection.h"
+
 using namespace ensonify;
 using namespace ensonify::console;
 using Catch::Matchers::WithinAbs;
@@ -68,6 +70,22 @@ TEST_CASE("contours have a bound, and a chart without heights has none") {
   none.height_m = {};
   CHECK(relief_of(none).shade.empty());
   CHECK(relief_of(none).projection.starts_with("+proj=tmerc +lat_0=54.25"));
+}
+
+TEST_CASE("a position in metres and degrees names the map") {
+  const frames::LocalProjection world({54.25, -3.5});
+  msg::Position position;
+  position.position_enu_m = {4000.0, -2500.0, 0.0};
+  const frames::Geodetic place = world.geodetic_of({4000.0, -2500.0});
+  position.latitude_deg = place.latitude_deg;
+  position.longitude_deg = place.longitude_deg;
+  const auto map = map_of(position);
+  REQUIRE(map);
+  CHECK(map->projection == relief_of(plane(0.0, 0.0)).projection);
+  CHECK(map->shade.empty());
+  CHECK_FALSE(map_of(msg::Position{}));
+  position.latitude_deg = 95.0;
+  CHECK_FALSE(map_of(position));
 }
 
 TEST_CASE("steps of contours are round") {

@@ -268,7 +268,7 @@ export function ChartPane() {
     <>
       <header>
         <b>chart</b> <span style={{ color: ESTIMATE }}>estimate</span> <span style={{ color: TRUTH }}>truth</span>
-        {relief && relief.contourStep_m > 0 && `· contours of the chart every ${relief.contourStep_m} m `}
+        {relief && relief.contourStep_m > 0 && ` · contours of the chart every ${relief.contourStep_m} m `}
         {cells && cells.soundings > 0 && ` · ${cells.soundings} soundings in cells of ${cells.cell_m} m, as many as this console has received`}
       </header>
       <div ref={place} class="map" />

@@ -145,6 +145,7 @@ function take(frame: Frame) {
     frameAsked = true;
   } else if (frame.type === "console_cells/1" || frame.type === "console_relief/1" || frame.type === "console_track/1") {
     chart?.(frame.content as ConsoleCells | ConsoleRelief | ConsoleTrack);
+    if (frame.type === "console_track/1") simTime_s.value = Math.max(simTime_s.value, (frame.content as ConsoleTrack).stamp_ns * 1e-9);
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "console_values/1") {
     simTime_s.value = Math.max(simTime_s.value, takeValues(frame.content as ConsoleValues));
