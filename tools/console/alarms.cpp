@@ -99,8 +99,9 @@ void Alarms::clock(const msg::Packet& packet) {
   for (const msg::Pace& pace : clock.participants) {
     double& worst_s = worst_lateness_s_[pace.name];
     if (clock.rate > 0.0 && pace.worst_lateness_s > std::max(worst_s, kLatePing_s))
-      happened("late_pings", pace.name,
-               fmt::format("up to {:.2f} s late, {} events so far", pace.worst_lateness_s, pace.late_events));
+      happened("late", pace.name,
+               fmt::format("the run waited for it, by up to {:.2f} s; {} late events so far", pace.worst_lateness_s,
+                           pace.late_events));
     worst_s = std::max(worst_s, pace.worst_lateness_s);
   }
 }

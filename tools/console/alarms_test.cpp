@@ -35,9 +35,9 @@ struct Watch {
     mission.cross_track_m = cross_track_m;
     give("pilot/mission", mission);
   }
-  msg::ConsoleAlarm of(const std::string& kind) {
+  msg::ConsoleAlarm of(const std::string& kind, const std::string& source = "") {
     for (const auto& alarm : alarms.message().alarms)
-      if (alarm.kind == kind) return alarm;
+      if (alarm.kind == kind && (source.empty() || alarm.source == source)) return alarm;
     return {};
   }
 };
@@ -120,14 +120,15 @@ TEST_CASE("a run behind its pace, slips, and a process that is late") {
   clock.slip_s = 2.0;
   clock.participants[0].worst_lateness_s = 0.4;
   watch.give("clock/health", clock);
-  CHECK(watch.of("late").active);
+  CHECK(watch.of("late", "clock").active);
   CHECK(watch.of("slips").text == "5 slips, 2.0 s of lost time given up");
-  CHECK(watch.of("late_pings").source == "bow");
+  CHECK(watch.of("late", "bow").raised == 1);
+  CHECK_FALSE(watch.of("late", "bow").active);
   clock.lateness_s = 0.1;
   watch.give("clock/health", clock);
-  CHECK_FALSE(watch.of("late").active);
+  CHECK_FALSE(watch.of("late", "clock").active);
   CHECK(watch.of("slips").raised == 1);
-  CHECK(watch.of("late_pings").raised == 1);
+  CHECK(watch.of("late", "bow").raised == 1);
 }
 
 TEST_CASE("messages that did not come are lost, but not while nobody watched the topic") {

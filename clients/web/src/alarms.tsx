@@ -6,6 +6,8 @@ const WORDS: Record<string, string> = {
   no_bottom: "no bottom", off_line: "off the line", late: "late", late_pings: "late pings", slips: "slips", lost: "lost", disk: "disk", degraded: "degraded", failed: "failed",
 };
 
+const MOMENTS = ["late_pings", "slips", "lost"]; // they have no end
+
 const alarms = signal<ConsoleAlarms>({ generation: 0, alarms: [] });
 /** How often each had been raised when it was acknowledged. */
 const acknowledged = signal<Record<string, number>>({});
@@ -38,7 +40,7 @@ export function Alarms() {
         {[...fresh, ...shown.filter((alarm) => !isNew(alarm))].map((alarm) => (
           <li key={keyOf(alarm)} class={isNew(alarm) ? "new" : "known"} data-alarm={keyOf(alarm)}>
             <b>{WORDS[alarm.kind] ?? alarm.kind}</b> {alarm.source}: {alarm.text}
-            <span class="note"> since t = {(alarm.since_ns * 1e-9).toFixed(1)} s{alarm.raised > 1 && `, ${alarm.raised} times`}{!alarm.active && ", over"}</span>
+            <span class="note"> since t = {(alarm.since_ns * 1e-9).toFixed(1)} s{alarm.raised > 1 && `, ${alarm.raised} times`}{!alarm.active && !MOMENTS.includes(alarm.kind) && ", over"}</span>
             {isNew(alarm) && <button aria-label={`acknowledge ${WORDS[alarm.kind] ?? alarm.kind} ${alarm.source}`} onClick={() => acknowledge([alarm])}>acknowledge</button>}
           </li>
         ))}
