@@ -23,8 +23,9 @@ using AllMessages =
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Transmit, SonarSettings, Tile, TileRelease,
                Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
-               ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack, ConsoleEnter, ConsoleWatch,
-               ConsoleDrawn, ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
+               ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack, ConsoleValues, ConsoleAlarms,
+               ConsoleLog, ConsoleRelief, ConsoleEnter, ConsoleWatch, ConsoleDrawn, ConsoleOpen, ConsoleCommand,
+               ConsoleAnswer>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

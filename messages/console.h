@@ -41,6 +41,31 @@ struct ConsoleItem {
   }
 };
 
+/// A number of a message type that can be drawn over time.
+struct ConsoleScalar {
+  std::string field;
+  std::string unit;
+  std::string about;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("field", "", "name of the number in its message, with dots where it lies deeper", self.field);
+    visit("unit", "", "unit in which it is sent: degrees for angles", self.unit);
+    visit("about", "", "meaning of the number", self.about);
+  }
+};
+
+struct ConsoleType {
+  std::string type;
+  std::vector<ConsoleScalar> scalars;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("type", "", "message type", self.type);
+    visit("scalars", "", "numbers of its messages, and what follows from them", self.scalars);
+  }
+};
+
 struct ConsoleState {
   static constexpr const char* kType = "console_state/1";
   static constexpr const char* kAbout = "What a console shows, to its viewers when they enter and when it changes.";
@@ -53,6 +78,7 @@ struct ConsoleState {
   std::int64_t exit_code = 0;
   double speed = 0.0;
   std::vector<ConsoleTopic> topics;
+  std::vector<ConsoleType> types;
   std::vector<ConsoleItem> items;
   std::vector<std::string> launches;
 
@@ -67,6 +93,7 @@ struct ConsoleState {
     visit("exit_code", "1", "exit code of a run that has ended and was started by this console", self.exit_code);
     visit("speed", "1", "sim seconds per wall second that are asked for; 0: as fast as possible", self.speed);
     visit("topics", "", "topics that can be watched", self.topics);
+    visit("types", "", "types of these topics that have numbers to be drawn over time", self.types);
     visit("items", "", "live runs and records that can be opened", self.items);
     visit("launches", "", "launch files of the installation, to be started from a shell", self.launches);
   }
@@ -163,6 +190,134 @@ struct ConsoleTrack {
   }
 };
 
+/// New points of one number.
+struct ConsoleSeries {
+  std::string name;
+  std::string unit;
+  std::int64_t first = 0;
+  Array<double> time_s;
+  Array<double> value;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("name", "", "name of the number: TOPIC.field", self.name);
+    visit("unit", "", "unit of its values; empty: not known", self.unit);
+    visit("first", "1", "index of the first of the new points", self.first);
+    visit("time_s", "s", "sim time of each point", self.time_s);
+    visit("value", "",
+          "value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s",
+          self.value);
+  }
+};
+
+struct ConsoleValues {
+  static constexpr const char* kType = "console_values/1";
+  static constexpr const char* kAbout = "Numbers over time: new points of those that a viewer asks for.";
+  std::int64_t generation = 0;
+  std::vector<ConsoleSeries> series;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; with another one all earlier points are void", self.generation);
+    visit("series", "", "numbers with new points", self.series);
+  }
+};
+
+/// Something that an operator has to know of.
+struct ConsoleAlarm {
+  std::string kind;
+  std::string source;
+  std::string text;
+  bool active = false;
+  std::int64_t raised = 0;
+  std::int64_t since_ns = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("kind", "", "no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed", self.kind);
+    visit("source", "", "name of the process, topic or folder that it is about", self.source);
+    visit("text", "", "cause, in one line", self.text);
+    visit("active", "", "true while its cause lasts; what happens at a moment is never active", self.active);
+    visit("raised", "1", "number of times that it was raised; one that is higher needs another acknowledgement",
+          self.raised);
+    visit("since_ns", "ns", "sim time at which it was raised last", self.since_ns);
+  }
+};
+
+struct ConsoleAlarms {
+  static constexpr const char* kType = "console_alarms/1";
+  static constexpr const char* kAbout = "All alarms of a run, those that have passed as well.";
+  std::int64_t generation = 0;
+  std::vector<ConsoleAlarm> alarms;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; acknowledgements of another one are void", self.generation);
+    visit("alarms", "", "alarms, at most 64", self.alarms);
+  }
+};
+
+struct ConsoleLogLine {
+  std::string process;
+  std::string level;
+  std::string text;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("process", "", "name of the process that wrote it", self.process);
+    visit("level", "", "error, warning or info, by the words of the line", self.level);
+    visit("text", "", "line, at most 500 bytes", self.text);
+  }
+};
+
+struct ConsoleLog {
+  static constexpr const char* kType = "console_log/1";
+  static constexpr const char* kAbout = "New lines of the logs that a run's processes write, the newest last.";
+  std::int64_t generation = 0;
+  std::int64_t first = 0;
+  std::vector<ConsoleLogLine> lines;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("generation", "1", "number of the run; with another one all earlier lines are void", self.generation);
+    visit("first", "1", "index of the first of these lines, of all that were read", self.first);
+    visit("lines", "", "lines", self.lines);
+  }
+};
+
+struct ConsoleRelief {
+  static constexpr const char* kType = "console_relief/1";
+  static constexpr const char* kAbout =
+      "The seabed of chart/1 as shaded relief with contours, and where the world lies.";
+  std::string projection;
+  double west_m = 0.0;
+  double south_m = 0.0;
+  double spacing_m = 1.0;
+  Array<std::uint8_t> shade;
+  double exaggeration = 1.0;
+  double contour_step_m = 0.0;
+  Array<float> contour_depth_m;
+  Array<float> contour_m;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("projection", "", "map of the world's plane, in the words of PROJ: east and north in metres on WGS 84",
+          self.projection);
+    visit("west_m", "m", "world east of the western posts", self.west_m);
+    visit("south_m", "m", "world north of the southern posts", self.south_m);
+    visit("spacing_m", "m", "distance between posts", self.spacing_m);
+    visit(
+        "shade", "1",
+        "brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; "
+        "0: nothing is known",
+        self.shade);
+    visit("exaggeration", "1", "factor by which slopes are steeper in the shading than they are", self.exaggeration);
+    visit("contour_step_m", "m", "difference of depth between contours", self.contour_step_m);
+    visit("contour_depth_m", "m", "depth of each piece of a contour, below chart datum", self.contour_depth_m);
+    visit("contour_m", "m", "straight pieces of contours (piece x 4): east and north of both ends", self.contour_m);
+  }
+};
+
 struct ConsoleEnter {
   static constexpr const char* kType = "console_enter/1";
   static constexpr const char* kAbout = "A viewer's first message, within 2 s.";
@@ -197,11 +352,13 @@ struct ConsoleWatch {
   static constexpr const char* kAbout = "A viewer says all that it watches from now on.";
   bool hidden = false;
   std::vector<ConsoleWatched> topics;
+  std::vector<std::string> values;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("hidden", "", "true while nobody can see the page: nothing is sent to it", self.hidden);
     visit("topics", "", "topics, at most 64", self.topics);
+    visit("values", "", "names of numbers (TOPIC.field) of the topic values, at most 32", self.values);
   }
 };
 

@@ -59,7 +59,7 @@ install();
 const { text, inputs } = bundle();
 writeFileSync(out, cppTable([
   ["/", "text/html; charset=utf-8", readFileSync(join(here, "src/index.html"), "utf8")],
-  ["/console.css", "text/css; charset=utf-8", readFileSync(join(here, "src/console.css"), "utf8")],
+  ["/console.css", "text/css; charset=utf-8", [join(work, "node_modules/uplot/dist/uPlot.min.css"), join(here, "src/console.css")].map((file) => readFileSync(file, "utf8")).join("\n")],
   ["/console.js", "text/javascript; charset=utf-8", text],
   ["/licences.txt", "text/plain; charset=utf-8", licences(inputs)],
 ]));

@@ -71,9 +71,59 @@ def health(times_s=(0.0, 1.0)):
                                             counters=[ensonify.Counter(name="fixes", count=i)])
 
 
+def angles_wxyz(heading_rad, pitch_rad, roll_rad):
+    """Attitude quaternion enu_from_body of an FRD body, w, x, y, z."""
+    def product(a, b):
+        return (a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+                a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])
+
+    def about(axis, angle):
+        return (np.cos(angle / 2), *(np.sin(angle / 2) * (i == axis) for i in range(3)))
+
+    level_to_north = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
+    return product(level_to_north, product(about(2, heading_rad), product(about(1, pitch_rad), about(0, roll_rad))))
+
+
+TRUE_ROLL_DEG, ESTIMATED_ROLL_DEG = 10.0, 12.0
+
+
+def voyage(seconds=20.0, rate_hz=5.0, gap_s=(8.0, 12.0)):
+    """A vehicle that turns by 9 degrees a second from 200 degrees on, 4 m/s fast; its true roll is TRUE_ROLL_DEG, its estimated roll
+    ESTIMATED_ROLL_DEG. In `gap_s` there is no estimate. An altimeter counts down from 30 m; in the second half it has no answer."""
+    for i in range(int(seconds * rate_hz)):
+        t_s = i / rate_hz
+        common = {"stamp_ns": int(t_s * 1e9), "position_enu_m": (1.0, 2.0, -3.0), "velocity_enu_mps": (0.0, 4.0, 1.0)}
+        heading_rad = np.radians((200 + 9 * t_s) % 360)
+        yield "boat/pose", ensonify.Pose(**common, enu_from_body=angles_wxyz(heading_rad, 0.0, np.radians(TRUE_ROLL_DEG)))
+        if not gap_s[0] <= t_s < gap_s[1]:
+            yield "nav/estimate", ensonify.Estimate(**common, enu_from_body=angles_wxyz(heading_rad, 0.0, np.radians(ESTIMATED_ROLL_DEG)))
+        answers = t_s < seconds / 2
+        yield "echo/altitude", ensonify.Altitude(stamp_ns=int(t_s * 1e9), valid=answers, range_m=30.0 - t_s if answers else 0.0)
+
+
+def mission(seconds=20.0, rate_hz=5.0):
+    """A runline on which the vehicle of voyage() is 7.25 m to port at first and wanders to starboard by 0.5 m/s; 4 m of it go by a second."""
+    for i in range(int(seconds * rate_hz)):
+        t_s = i / rate_hz
+        yield "pilot/mission", ensonify.MissionState(stamp_ns=int(t_s * 1e9), state="on_line", line=2, line_count=7, line_name="<i>NW 3</i>",
+                                                     cross_track_m=-7.25 + 0.5 * t_s, distance_to_go_m=500.0 - 4.0 * t_s)
+        yield "pilot/guidance", ensonify.Guidance(stamp_ns=int(t_s * 1e9), heading_grid_rad=np.radians(123.0), speed_mps=3.5)
+
+
+CHART_ORIGIN = (54.25, -3.5)  # degrees north and east
+
+
+def seabed_chart():
+    """A plane that falls by 0.1 m a metre to the east, 10 m deep at east -200 m and 50 m at 200 m; 41 x 41 posts of 10 m about the origin."""
+    east_m = np.arange(-200.0, 201.0, 10.0)
+    height_m = np.tile(-(30.0 + 0.1 * east_m), (41, 1)).astype("f4")
+    yield "pager/chart", ensonify.Chart(origin_latitude_deg=CHART_ORIGIN[0], origin_longitude_deg=CHART_ORIGIN[1], west_m=-200.0, south_m=-200.0, east_m=200.0,
+                                        north_m=200.0, shallowest_m=10.0, deepest_m=50.0, spacing_m=10.0, height_m=height_m)
+
+
 def write_record(file, *streams, declares=None):
     """In the order of time."""
-    messages = sorted((message for stream in streams for message in stream), key=lambda m: m[1].stamp_ns)
+    messages = sorted((message for stream in streams for message in stream), key=lambda m: getattr(m[1], "stamp_ns", 0))
     return synthetic_heads.write(file, messages, declares)
 
 

@@ -1,67 +1,19 @@
 """The page in a real browser: records of known content, and laws of what is drawn. Screenshots go to ENSONIFY_SHOTS, where that is set."""
 import math
 import os
-import pathlib
-import shutil
 import time
 import unittest
 
 import ensonify
 import numpy as np
 
-from console import SOURCE, ConsoleTest, fan, health, sides, slope_depth_m, survey, write_record
-
-CHROMIUM = shutil.which("chromium")
-try:
-    from playwright.sync_api import sync_playwright
-except ImportError:
-    sync_playwright = None
+from browser import BrowserTest
+from console import SOURCE, fan, health, sides, slope_depth_m, survey, write_record
 
 SHOWN_S = 40 if os.environ.get("ENSONIFY_SHOTS") else 5  # sim time of a survey that is watched
 
-# Every pixel of a canvas as numbers, and the cursor's line for one of them.
-PIXELS = """canvas => { const d = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-  return {width: d.width, height: d.height, data: Array.from(new Uint32Array(d.data.buffer))}; }"""
 
-
-@unittest.skipUnless(CHROMIUM and sync_playwright, "no chromium, or no playwright")
-class Page(ConsoleTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.playwright = sync_playwright().start()
-        cls.browser = cls.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--enable-unsafe-swiftshader"])
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.playwright.stop()
-
-    def open(self, url, width=1400, height=850):
-        page = self.browser.new_page(viewport={"width": width, "height": height})
-        self.addCleanup(page.close)
-        self.errors, self.asked = [], set()
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
-        page.on("request", lambda request: self.asked.add(request.url.split("/")[2]) if request.url.startswith("http") else None)
-        page.goto(url)
-        return page
-
-    def picture(self, page, topic):
-        """The canvas as height x width numbers, 0xAABBGGRR."""
-        made = page.locator(f'canvas[data-topic="{topic}"]').evaluate(PIXELS)
-        return np.array(made["data"], np.uint32).reshape(made["height"], made["width"])
-
-    def wait_for_flow(self, page, panes=1):
-        self.wait_for(lambda: page.locator(".flow").count() >= panes, 15)
-
-    def cursor(self, page, topic, x, y):
-        page.locator(f'canvas[data-topic="{topic}"]').hover(position={"x": x, "y": y})
-        return page.locator(f'.pane:has(canvas[data-topic="{topic}"]) .cursor').inner_text()
-
-    def shot(self, page, name):
-        if os.environ.get("ENSONIFY_SHOTS"):
-            page.screenshot(path=pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png")
-
+class Page(BrowserTest):
     def brightest(self, page, topic):
         """Mean place and number of the pixels of the brightest colour, and the place of one of them."""
         picture = self.picture(page, topic)

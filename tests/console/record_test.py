@@ -21,7 +21,7 @@ class Record(ConsoleTest):
         at = self.console(write_record(self.folder / "fan.mcap", fan(pings=3)), "--loop")
         viewer = Viewer(at.view)
         topics = viewer.of("console_state/1").content["topics"]
-        self.assertEqual([(topic["name"], topic["type"]) for topic in topics], [("bow/view", "view/1")])
+        self.assertEqual([(topic["name"], topic["type"]) for topic in topics], [("bow/view", "view/1"), ("values", "console_values/1")])
         viewer.watch("bow/view", cells=1024)
         view = viewer.of("view/1").content
         self.assertEqual(view["level"].shape, (61, 1000))

@@ -7,7 +7,7 @@ import msgpack
 import numpy as np
 from websockets.sync.client import connect
 
-TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "console_cells/1", "console_track/1", "mission_state/1", "pose/1")
+TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "console_cells/1", "console_track/1", "console_values/1", "console_alarms/1", "console_log/1", "console_relief/1", "mission_state/1", "pose/1")
 DTYPES = {"u1": "<u1", "i2": "<i2", "u2": "<u2", "i4": "<i4", "u4": "<u4", "i8": "<i8", "f4": "<f4", "f8": "<f8"}
 
 
@@ -63,8 +63,8 @@ class Viewer:
     def say(self, kind, **content):
         self.socket.send(json.dumps({"type": kind, **content}))
 
-    def watch(self, *topics, hidden=False, **wish):
-        self.say("console_watch/1", hidden=hidden, topics=[{"topic": topic, **wish} for topic in topics])
+    def watch(self, *topics, hidden=False, values=(), **wish):
+        self.say("console_watch/1", hidden=hidden, values=list(values), topics=[{"topic": topic, **wish} for topic in topics])
 
     def next(self, patience_s=5.0):
         """The next frame; TimeoutError when none comes."""

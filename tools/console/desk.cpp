@@ -1,6 +1,7 @@
 #include "tools/console/desk.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "components/view/ping_view.h"
 #include "messages/clock.h"
@@ -8,12 +9,18 @@
 #include "messages/motion.h"
 #include "messages/navigation.h"
 #include "messages/soundings.h"
+#include "messages/terrain.h"
+#include "tools/console/relief.h"
 
 namespace ensonify::console {
 
 namespace {
 
 constexpr std::chrono::milliseconds kPollBudget{4};
+constexpr std::chrono::milliseconds kAlarmsEvery{250};
+constexpr std::chrono::milliseconds kLogsEvery{250};
+constexpr std::chrono::seconds kChartEvery{5};
+constexpr std::chrono::seconds kDiskEvery{5};
 constexpr std::size_t kKept = 8;      // pictures that several viewers may share
 constexpr std::size_t kFinds = 16;    // pings of a head whose detections may belong to a picture that is still to come
 constexpr std::size_t kFanBeams = 3;  // a head with fewer beams draws lines
@@ -35,6 +42,12 @@ std::size_t beams_of(const msg::Packet& packet) {
 }
 
 std::string process_of(const std::string& topic) { return topic.substr(0, topic.find('/')); }
+
+/// From which latitude and longitude follow.
+bool places_world(const std::string& type) { return type == msg::Chart::kType || type == msg::Position::kType; }
+
+/// Where the processes of a run write their logs.
+std::string log_folder(const Source& source) { return source.folder().empty() ? "" : source.folder() + "/log"; }
 
 bool watches_view_of(const Flow& flow, const std::string& head) {
   const std::string begin = head + "/" + std::string(kView);
@@ -68,7 +81,11 @@ void Desk::settle(Flow& flow) {
 }
 
 void Desk::ask_source() {
-  std::set<std::string> wanted;
+  std::set<std::string> names;
+  for (const Flow* flow : viewers_)
+    if (flow->watches(kValuesTopic)) names.insert(flow->values().begin(), flow->values().end());
+  values_.want(names, type_of_);
+  std::set<std::string> wanted = values_.topics();
   for (const auto& entry : type_of_) {
     const std::string& topic = entry.first;
     const bool soundings = entry.second == msg::Soundings::kType;
@@ -76,10 +93,13 @@ void Desk::ask_source() {
     const std::string made = soundings ? kCellsTopic : is_track(entry.second) ? kTrackTopic : "";
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
-             (soundings && watches_view_of(*flow, process_of(topic)));
+             (soundings && watches_view_of(*flow, process_of(topic))) ||
+             (places_world(entry.second) && flow->watches(kReliefTopic)) ||
+             (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
   }
+  alarms_.keep(wanted);
   source_->want(wanted);
 }
 
@@ -93,11 +113,23 @@ void Desk::refresh() {
     topic.name = view_topic_of(topic.name);
     topic.type = msg::View::kType;
   }
-  bool cells = false, tracks = false;
+  std::error_code error;
+  bool cells = false, tracks = false, alarms = false, chart = false;
   for (const auto& [topic, type] : type_of_) {
     cells = cells || type == msg::Soundings::kType;
     tracks = tracks || is_track(type);
+    alarms = alarms || Alarms::needs(type);
+    chart = chart || places_world(type);
   }
+  std::set<std::string> types;
+  for (const auto& [topic, type] : type_of_) types.insert(type);
+  for (const std::string& type : types)
+    if (!scalars_of(type).empty()) state_.types.push_back({type, scalars_of(type)});
+  if (!state_.types.empty()) state_.topics.push_back({kValuesTopic, msg::ConsoleValues::kType, "", ""});
+  if (alarms) state_.topics.push_back({kAlarmsTopic, msg::ConsoleAlarms::kType, "", ""});
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(log_folder(*source_), error)))
+    state_.topics.push_back({kLogTopic, msg::ConsoleLog::kType, "", ""});
+  if (chart) state_.topics.push_back({kReliefTopic, msg::ConsoleRelief::kType, "", ""});
   if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
   if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
@@ -114,10 +146,18 @@ bool Desk::poll(WallTime now) {
   const bool was_away = state_.state == "waiting" || state_.state == "ended";
   if (fresh.kind == "run" && was_away && fresh.state == "running") {  // another run of that name
     survey_.clear();
+    values_.clear();
+    alarms_.clear();
+    logs_.clear();
+    has_map_ = has_relief_ = false;
     newest_.clear();
     finds_.clear();
     fault_.clear();
   }
+  watch_disk(now);
+  read_logs(now);
+  find_chart(now);
+  offer_alarms(now);
   const bool topics_changed = fresh.topics.size() != type_of_.size();
   if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
       fresh.speed == state_.speed && fresh.name == state_.name)
@@ -125,6 +165,54 @@ bool Desk::poll(WallTime now) {
   refresh();
   if (topics_changed) ask_source();
   return true;
+}
+
+void Desk::watch_disk(WallTime now) {
+  if (state_.kind != "run" || state_.state != "running" || now - disk_seen_ < kDiskEvery) return;
+  disk_seen_ = now;
+  std::error_code error;
+  const auto space = std::filesystem::space(source_->folder(), error);
+  if (!error) alarms_.disk(source_->folder(), space.available);
+}
+
+void Desk::read_logs(WallTime now) {
+  const auto watches = [](const Flow* flow) { return flow->watches(kLogTopic); };
+  if (now - logs_read_ < kLogsEvery || std::none_of(viewers_.begin(), viewers_.end(), watches)) return;
+  logs_read_ = now;
+  logs_.read(log_folder(*source_));
+}
+
+/// A chart is published once, before anybody watches: then it is in the record.
+void Desk::find_chart(WallTime now) {
+  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic); };
+  if (has_relief_ || now - chart_sought_ < kChartEvery || std::none_of(viewers_.begin(), viewers_.end(), watches))
+    return;
+  chart_sought_ = now;
+  if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) {
+    has_relief_ = true;
+    offer_relief(relief_of(*chart), now);
+  }
+}
+
+void Desk::offer_relief(const msg::ConsoleRelief& relief, WallTime now) {
+  has_map_ = true;
+  msg::Packet packet{kReliefTopic, {}, msg::encode(relief), {}};
+  packet.envelope.type_hash = msg::type_hash(msg::ConsoleRelief::kType);
+  packet.envelope.seq = relief_seq_++;
+  const Offer offer{kReliefTopic, Way::picture, std::make_shared<const msg::Packet>(std::move(packet)), now};
+  newest_[kReliefTopic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
+}
+
+void Desk::offer_alarms(WallTime now) {
+  if (now - alarms_said_ < kAlarmsEvery || !alarms_.changed()) return;
+  alarms_said_ = now;
+  msg::Packet packet{kAlarmsTopic, {}, msg::encode(alarms_.message()), {}};
+  packet.envelope.type_hash = msg::type_hash(msg::ConsoleAlarms::kType);
+  packet.envelope.seq = alarms_seq_++;
+  const Offer offer{kAlarmsTopic, Way::state, std::make_shared<const msg::Packet>(std::move(packet)), now};
+  newest_[kAlarmsTopic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
 }
 
 void Desk::take(msg::Packet packet, WallTime now) {
@@ -142,6 +230,14 @@ void Desk::take(msg::Packet packet, WallTime now) {
     offer.way = Way::state;
   }
   try {
+    values_.take(type->second, packet);
+    alarms_.take(type->second, packet);
+    if (type->second == msg::Chart::kType) {
+      has_relief_ = true;
+      offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
+    } else if (type->second == msg::Position::kType && !has_map_) {
+      if (const auto map = map_of(msg::decode<msg::Position>(packet.body, packet.body.size()))) offer_relief(*map, now);
+    }
     survey_.take(type->second, packet);
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];

@@ -9,9 +9,13 @@
 #include <vector>
 
 #include "messages/soundings.h"
+#include "messages/terrain.h"
+#include "tools/console/alarms.h"
 #include "tools/console/flow.h"
+#include "tools/console/logs.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
+#include "tools/console/values.h"
 
 namespace ensonify::console {
 
@@ -34,6 +38,9 @@ class Desk {
   const msg::ConsoleState& state() const { return state_; }
   /// What kCellsTopic and kTrackTopic are made of.
   const Survey& survey() const { return survey_; }
+  /// What kValuesTopic is made of.
+  const Values& values() const { return values_; }
+  const Logs& logs() const { return logs_; }
   void command(const msg::ConsoleCommand& command) { source_->command(command); }
 
   /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
@@ -43,6 +50,11 @@ class Desk {
   void take(msg::Packet packet, WallTime now);
   void refresh();
   void ask_source();
+  void watch_disk(WallTime now);
+  void read_logs(WallTime now);
+  void find_chart(WallTime now);
+  void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
+  void offer_alarms(WallTime now);
 
   std::unique_ptr<Source> source_;
   std::list<Flow*> viewers_;
@@ -52,6 +64,17 @@ class Desk {
   std::map<std::string, std::string> type_of_;  // of the source's topics
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
+  Values values_;
+  std::uint64_t relief_seq_ = 0;
+  bool has_map_ = false;
+  bool has_relief_ = false;
+  WallTime chart_sought_;
+  Logs logs_;
+  WallTime logs_read_;
+  Alarms alarms_;
+  std::uint64_t alarms_seq_ = 0;
+  WallTime alarms_said_;
+  WallTime disk_seen_;
   std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
 
   struct Made {  // the last pictures, for several viewers of one size
@@ -62,9 +85,14 @@ class Desk {
   std::list<Made> made_;
 };
 
-/// Topics that a desk makes of several: console_cells/1, console_track/1.
+/// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1,
+/// console_alarms/1, console_log/1.
 inline constexpr const char* kCellsTopic = "cells";
 inline constexpr const char* kTrackTopic = "track";
+inline constexpr const char* kValuesTopic = "values";
+inline constexpr const char* kAlarmsTopic = "alarms";
+inline constexpr const char* kReliefTopic = "relief";
+inline constexpr const char* kLogTopic = "log";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

@@ -32,6 +32,7 @@ class TestSource : public Source {
     return state;
   }
   std::string beam_axis(const std::string& publisher) const override { return publisher == "bow" ? "forward" : "down"; }
+  std::string folder() const override { return ""; }
   void want(const std::set<std::string>& topics) override { wanted = topics; }
   void poll(WallTime, std::chrono::milliseconds, const Take& take) override {
     if (!fault.empty()) throw std::runtime_error(fault);

@@ -16,6 +16,9 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
   if (wish.topics.size() > kMostTopics)
     throw msg::DecodeError("topics: " + std::to_string(wish.topics.size()) +
                            " are too many; allowed: " + std::to_string(kMostTopics));
+  if (wish.values.size() > kMostValues)
+    throw msg::DecodeError("values: " + std::to_string(wish.values.size()) +
+                           " are too many; allowed: " + std::to_string(kMostValues));
   for (const msg::ConsoleWatched& watched : wish.topics) {
     const auto most = static_cast<std::int64_t>(kMostCells);
     if (watched.cells < static_cast<std::int64_t>(kLeastCells) || watched.cells > most)

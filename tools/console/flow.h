@@ -44,6 +44,7 @@ struct Sending {
 class Flow {
  public:
   static constexpr std::size_t kMostTopics = 64;
+  static constexpr std::size_t kMostValues = 32;
   static constexpr std::size_t kMostLines = 512;  // of a topic that wait
   static constexpr std::size_t kLinesAhead = 64;  // of a topic that were sent and not yet drawn
   static constexpr std::size_t kLeastCells = 16;
@@ -61,6 +62,8 @@ class Flow {
   void watch(const msg::ConsoleWatch& wish, WallTime now);
   bool watches(const std::string& topic) const;
   const std::vector<msg::ConsoleWatched>& watched() const { return wish_.topics; }
+  /// Names of numbers, TOPIC.field.
+  const std::vector<std::string>& values() const { return wish_.values; }
 
   /// Something of this topic has not been sent yet.
   bool has_waiting(const std::string& topic) const;

@@ -106,6 +106,8 @@ class LiveSource : public Source {
     return axis == axes_.end() ? kBeamAxis : axis->second;
   }
 
+  std::string folder() const override { return folder_; }
+
   void want(const std::set<std::string>& topics) override {
     wanted_ = topics;
     connect();
@@ -164,6 +166,7 @@ class LiveSource : public Source {
     ended_ = false;
     state_ = "running";
     launch_ = run_->run.about.launch;
+    folder_ = run_->run.about.out;
     axes_ = run_->axes;
     topics_.clear();
     for (const TopicEntry& topic : run_->registry.topics)
@@ -199,6 +202,7 @@ class LiveSource : public Source {
   bool ended_ = false;
   std::string state_;
   std::string launch_;
+  std::string folder_;
   double rate_ = 0.0;
   std::vector<msg::ConsoleTopic> topics_;
   std::map<std::string, std::string> axes_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -56,6 +57,8 @@ class RecordSource : public Source {
     const auto axis = axes_.find(publisher);
     return axis == axes_.end() ? "down" : axis->second;
   }
+
+  std::string folder() const override { return std::filesystem::absolute(file_).parent_path().string(); }
 
   void want(const std::set<std::string>& topics) override {
     const bool rested = wanted_.empty();

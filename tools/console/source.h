@@ -25,6 +25,8 @@ class Source {
   virtual std::string beam_axis(const std::string& publisher) const = 0;
   /// The topics that somebody watches, by their names in the run; none: the source may rest.
   virtual void want(const std::set<std::string>& topics) = 0;
+  /// Folder of the run's results or of the record; empty: not known.
+  virtual std::string folder() const = 0;
   /// Hands over what has come, for at most `budget` of wall time.
   virtual void poll(WallTime now, std::chrono::milliseconds budget, const Take& take) = 0;
   /// Throws UserError for what cannot be done.

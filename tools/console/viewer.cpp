@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kStateTopic = "console/state";
 constexpr const char* kFlowTopic = "console/flow";
 constexpr const char* kAnswerTopic = "console/answer";
-constexpr std::chrono::milliseconds kFetchEvery{250};  // of the chart's news
+constexpr std::chrono::milliseconds kFetchEvery{250};  // of the chart and of numbers
 constexpr std::string_view kCommands[] = {"pause", "resume", "rate", "stop"};
 
 template <msg::Message M>
@@ -78,6 +78,8 @@ void Viewer::take(const std::string& type, const msg::Value& message, WallTime n
   }
   if (flow_.answered(now)) {
     seen_ = {};
+    seen_values_ = {};
+    seen_log_ = {};
     send_state();
     if (desk_) desk_->settle(flow_);
   }
@@ -96,9 +98,15 @@ void Viewer::take(const std::string& type, const msg::Value& message, WallTime n
   if (type == msg::ConsoleWatch::kType) {
     const auto wish = read<msg::ConsoleWatch>(message);
     const bool cells = flow_.watches(kCellsTopic), track = flow_.watches(kTrackTopic);
+    const bool log = flow_.watches(kLogTopic);
     flow_.watch(wish, now);
     if (flow_.watches(kCellsTopic) && !cells) seen_.cells = 0;
     if (flow_.watches(kTrackTopic) && !track) seen_.points.clear();
+    if (flow_.watches(kLogTopic) && !log) seen_log_ = {};
+    const auto& values = wish.values;
+    std::erase_if(seen_values_.points, [&](const auto& entry) {
+      return !flow_.watches(kValuesTopic) || std::find(values.begin(), values.end(), entry.first) == values.end();
+    });
     if (desk_) desk_->settle(flow_);
   } else if (type == msg::ConsoleOpen::kType) {
     sit_at(read<msg::ConsoleOpen>(message).id);
@@ -123,6 +131,8 @@ void Viewer::sit_at(const std::string& id) {
   if (desk_) desk_->remove(flow_);
   desk_ = desk;
   seen_ = {};
+  seen_values_ = {};
+  seen_log_ = {};
   if (desk_) {
     desk_->add(flow_);
     desk_->settle(flow_);
@@ -161,19 +171,23 @@ void Viewer::tick(WallTime now) {
   }
   if (now - fetched_ > kFetchEvery) {
     fetched_ = now;
-    fetch_survey();
+    fetch_news();
   }
   flow_.passed(now, !busy_ && line_.in_link() == 0);
   push(now);
 }
 
-/// What is new of the chart to this viewer, once it has been sent what was new before.
-void Viewer::fetch_survey() {
+/// What is new of the chart and of numbers to this viewer, once it has been sent what was new before.
+void Viewer::fetch_news() {
   if (!desk_ || flow_.away(std::chrono::steady_clock::now())) return;
   if (flow_.watches(kCellsTopic) && !flow_.has_waiting(kCellsTopic))
     if (const auto cells = desk_->survey().new_cells(seen_)) offer_own(kCellsTopic, *cells, Way::line);
   if (flow_.watches(kTrackTopic) && !flow_.has_waiting(kTrackTopic))
     for (const msg::ConsoleTrack& track : desk_->survey().new_tracks(seen_)) offer_own(kTrackTopic, track, Way::line);
+  if (flow_.watches(kValuesTopic) && !flow_.has_waiting(kValuesTopic))
+    if (const auto news = desk_->values().news(flow_.values(), seen_values_)) offer_own(kValuesTopic, *news, Way::line);
+  if (flow_.watches(kLogTopic) && !flow_.has_waiting(kLogTopic))
+    if (const auto log = desk_->logs().news(seen_log_)) offer_own(kLogTopic, *log, Way::line);
 }
 
 void Viewer::push(WallTime now) {

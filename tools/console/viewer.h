@@ -6,8 +6,10 @@
 
 #include "tools/console/doors.h"
 #include "tools/console/flow.h"
+#include "tools/console/logs.h"
 #include "tools/console/server/server.h"
 #include "tools/console/survey.h"
+#include "tools/console/values.h"
 
 namespace ensonify::console {
 
@@ -37,7 +39,7 @@ class Viewer : public Visitor {
   void sit_at(const std::string& id);
   void answer(const std::string& request, const std::string& error);
   void push(WallTime now);
-  void fetch_survey();
+  void fetch_news();
   template <msg::Message M>
   void offer_own(const std::string& topic, const M& message, Way way);
 
@@ -48,6 +50,8 @@ class Viewer : public Visitor {
   std::shared_ptr<Desk> desk_;
   Flow flow_;
   Survey::Seen seen_;
+  Values::Seen seen_values_;
+  Logs::Seen seen_log_;
   WallTime fetched_;
   bool busy_ = false;  // a message is on its way into the socket
   std::uint64_t seq_ = 0;

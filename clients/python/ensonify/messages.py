@@ -13,11 +13,20 @@ __all__ = [
     "ClockHealth",
     "ConsoleTopic",
     "ConsoleItem",
+    "ConsoleScalar",
+    "ConsoleType",
     "ConsoleState",
     "ConsoleFlowTopic",
     "ConsoleFlow",
     "ConsoleCells",
     "ConsoleTrack",
+    "ConsoleSeries",
+    "ConsoleValues",
+    "ConsoleAlarm",
+    "ConsoleAlarms",
+    "ConsoleLogLine",
+    "ConsoleLog",
+    "ConsoleRelief",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -152,6 +161,32 @@ class ConsoleItem(Struct):
 
 
 @dataclass(eq=False)
+class ConsoleScalar(Struct):
+    """A number of a message type that can be drawn over time.
+
+    field: name of the number in its message, with dots where it lies deeper
+    unit: unit in which it is sent: degrees for angles
+    about: meaning of the number
+    """
+
+    field: str = ""
+    unit: str = ""
+    about: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleType(Struct):
+    """Part of a message: ConsoleType.
+
+    type: message type
+    scalars: numbers of its messages, and what follows from them
+    """
+
+    type: str = ""
+    scalars: list = list_of(ConsoleScalar)
+
+
+@dataclass(eq=False)
 class ConsoleState(Message):
     """What a console shows, to its viewers when they enter and when it changes.
 
@@ -164,6 +199,7 @@ class ConsoleState(Message):
     exit_code [1]: exit code of a run that has ended and was started by this console
     speed [1]: sim seconds per wall second that are asked for; 0: as fast as possible
     topics: topics that can be watched
+    types: types of these topics that have numbers to be drawn over time
     items: live runs and records that can be opened
     launches: launch files of the installation, to be started from a shell
     """
@@ -178,6 +214,7 @@ class ConsoleState(Message):
     exit_code: int = 0
     speed: float = 0.0
     topics: list = list_of(ConsoleTopic)
+    types: list = list_of(ConsoleType)
     items: list = list_of(ConsoleItem)
     launches: list = list_of(str)
 
@@ -270,6 +307,126 @@ class ConsoleTrack(Message):
 
 
 @dataclass(eq=False)
+class ConsoleSeries(Struct):
+    """New points of one number.
+
+    name: name of the number: TOPIC.field
+    unit: unit of its values; empty: not known
+    first [1]: index of the first of the new points
+    time_s [s]: sim time of each point
+    value: value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s
+    """
+
+    name: str = ""
+    unit: str = ""
+    first: int = 0
+    time_s: np.ndarray = array("f8")
+    value: np.ndarray = array("f8")
+
+
+@dataclass(eq=False)
+class ConsoleValues(Message):
+    """Numbers over time: new points of those that a viewer asks for.
+
+    generation [1]: number of the run; with another one all earlier points are void
+    series: numbers with new points
+    """
+
+    TYPE = "console_values/1"
+    generation: int = 0
+    series: list = list_of(ConsoleSeries)
+
+
+@dataclass(eq=False)
+class ConsoleAlarm(Struct):
+    """Something that an operator has to know of.
+
+    kind: no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed
+    source: name of the process, topic or folder that it is about
+    text: cause, in one line
+    active: true while its cause lasts; what happens at a moment is never active
+    raised [1]: number of times that it was raised; one that is higher needs another acknowledgement
+    since_ns [ns]: sim time at which it was raised last
+    """
+
+    kind: str = ""
+    source: str = ""
+    text: str = ""
+    active: bool = False
+    raised: int = 0
+    since_ns: int = 0
+
+
+@dataclass(eq=False)
+class ConsoleAlarms(Message):
+    """All alarms of a run, those that have passed as well.
+
+    generation [1]: number of the run; acknowledgements of another one are void
+    alarms: alarms, at most 64
+    """
+
+    TYPE = "console_alarms/1"
+    generation: int = 0
+    alarms: list = list_of(ConsoleAlarm)
+
+
+@dataclass(eq=False)
+class ConsoleLogLine(Struct):
+    """Part of a message: ConsoleLogLine.
+
+    process: name of the process that wrote it
+    level: error, warning or info, by the words of the line
+    text: line, at most 500 bytes
+    """
+
+    process: str = ""
+    level: str = ""
+    text: str = ""
+
+
+@dataclass(eq=False)
+class ConsoleLog(Message):
+    """New lines of the logs that a run's processes write, the newest last.
+
+    generation [1]: number of the run; with another one all earlier lines are void
+    first [1]: index of the first of these lines, of all that were read
+    lines: lines
+    """
+
+    TYPE = "console_log/1"
+    generation: int = 0
+    first: int = 0
+    lines: list = list_of(ConsoleLogLine)
+
+
+@dataclass(eq=False)
+class ConsoleRelief(Message):
+    """The seabed of chart/1 as shaded relief with contours, and where the world lies.
+
+    projection: map of the world's plane, in the words of PROJ: east and north in metres on WGS 84
+    west_m [m]: world east of the western posts
+    south_m [m]: world north of the southern posts
+    spacing_m [m]: distance between posts
+    shade [1]: brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; 0: nothing is known
+    exaggeration [1]: factor by which slopes are steeper in the shading than they are
+    contour_step_m [m]: difference of depth between contours
+    contour_depth_m [m]: depth of each piece of a contour, below chart datum
+    contour_m [m]: straight pieces of contours (piece x 4): east and north of both ends
+    """
+
+    TYPE = "console_relief/1"
+    projection: str = ""
+    west_m: float = 0.0
+    south_m: float = 0.0
+    spacing_m: float = 1.0
+    shade: np.ndarray = array("u1")
+    exaggeration: float = 1.0
+    contour_step_m: float = 0.0
+    contour_depth_m: np.ndarray = array("f4")
+    contour_m: np.ndarray = array("f4")
+
+
+@dataclass(eq=False)
 class ConsoleEnter(Message):
     """A viewer's first message, within 2 s.
 
@@ -304,11 +461,13 @@ class ConsoleWatch(Message):
 
     hidden: true while nobody can see the page: nothing is sent to it
     topics: topics, at most 64
+    values: names of numbers (TOPIC.field) of the topic values, at most 32
     """
 
     TYPE = "console_watch/1"
     hidden: bool = False
     topics: list = list_of(ConsoleWatched)
+    values: list = list_of(str)
 
 
 @dataclass(eq=False)
@@ -1651,6 +1810,10 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleFlow,
     ConsoleCells,
     ConsoleTrack,
+    ConsoleValues,
+    ConsoleAlarms,
+    ConsoleLog,
+    ConsoleRelief,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

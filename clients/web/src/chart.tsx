@@ -17,13 +17,12 @@ import Fill from "ol/style/Fill";
 import RegularShape from "ol/style/RegularShape";
 import Stroke from "ol/style/Stroke";
 import Style from "ol/style/Style";
-import { ConsoleCells, ConsoleTrack } from "./messages";
-import { DEPTHS } from "./palette";
+import { ConsoleCells, ConsoleRelief, ConsoleTrack } from "./messages";
+import { DEPTHS, ESTIMATE, TRUTH } from "./palette";
+import { Relief } from "./relief";
 import { watchChart } from "./store";
 
 const PLANE = new Projection({ code: "ensonify:plane", units: "m", extent: [-1e7, -1e7, 1e7, 1e7], axisOrientation: "enu" });
-const ESTIMATE = "#6fe3ff";
-const TRUTH = "#ffb454";
 const RULER = new Style({ stroke: new Stroke({ color: "#ffffff", width: 1.5, lineDash: [6, 4] }) });
 
 interface Cell {
@@ -132,6 +131,17 @@ class Chart {
       return this.canvas;
     },
   });
+  relief: Relief | null = null;
+  private reliefCanvas = document.createElement("canvas");
+  private reliefSource = new ImageCanvas({
+    projection: PLANE, ratio: 1, interpolate: false,
+    canvasFunction: (extent, _resolution, _ratio, size) => {
+      const [width, height] = [Math.round(size[0]), Math.round(size[1])];
+      if (this.relief) this.relief.draw(this.reliefCanvas, extent, width, height);
+      else [this.reliefCanvas.width, this.reliefCanvas.height] = [width, height];
+      return this.reliefCanvas;
+    },
+  });
   private tracks = new VectorSource();
   private ruler = new VectorSource();
   private lines: globalThis.Map<string, { generation: number; line: LineString; place: Feature<Point> }> = new globalThis.Map();
@@ -142,6 +152,7 @@ class Chart {
     this.map = new Map({
       target, controls: controls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric" })]),
       layers: [
+        new ImageLayer({ source: this.reliefSource }),
         new ImageLayer({ source: this.cellSource }),
         new VectorLayer({ source: this.tracks }),
         new VectorLayer({ source: this.ruler, style: RULER }),
@@ -159,8 +170,22 @@ class Chart {
     target.addEventListener("pointerleave", () => moved(null));
   }
 
-  take(news: ConsoleCells | ConsoleTrack) {
-    if ("cell_m" in news) {
+  /** Draws the cells in the colours that are wanted now. */
+  recolour(by: Colours) {
+    this.cells.by = by;
+    this.cells.judge();
+    this.cellSource.changed();
+  }
+
+  get metresPerPixel(): number {
+    return this.map.getView().getResolution() ?? 1;
+  }
+
+  take(news: ConsoleCells | ConsoleRelief | ConsoleTrack) {
+    if ("shade" in news) {
+      this.relief = new Relief(news);
+      this.reliefSource.changed();
+    } else if ("cell_m" in news) {
       if (this.cells.take(news)) this.fitted = false;
       this.cellSource.changed();
     } else {
@@ -194,7 +219,7 @@ class Chart {
 
   /** Shows all that there is, and follows until the user moves the chart. */
   fit() {
-    const extent = this.cells.extent ?? this.tracks.getExtent();
+    const extent = this.cells.extent ?? (this.tracks.isEmpty() ? this.relief?.extent : this.tracks.getExtent());
     if (!extent || !Number.isFinite(extent[0])) return;
     const grown = extent.slice();
     const t = this.tracks.getExtent();
@@ -234,17 +259,16 @@ export function ChartPane() {
   const choose = (event: Event) => {
     const wanted = (event.target as HTMLSelectElement).value as Colours;
     setBy(wanted);
-    if (!cells) return;
-    cells.by = wanted;
-    cells.judge();
-    chart.current!.map.getLayers().item(0).changed();
-    (chart.current!.map.getLayers().item(0) as ImageLayer<ImageCanvas>).getSource()!.changed();
+    chart.current?.recolour(wanted);
   };
   const cell = at && cells?.at(at[0], at[1]);
+  const relief = chart.current?.relief;
+  const contour = at && relief?.contourAt(at[0], at[1], 4 * chart.current!.metresPerPixel);
   return (
     <>
       <header>
         <b>chart</b> <span style={{ color: ESTIMATE }}>estimate</span> <span style={{ color: TRUTH }}>truth</span>
+        {relief && relief.contourStep_m > 0 && ` · contours of the chart every ${relief.contourStep_m} m `}
         {cells && cells.soundings > 0 && ` · ${cells.soundings} soundings in cells of ${cells.cell_m} m, as many as this console has received`}
       </header>
       <div ref={place} class="map" />
@@ -256,7 +280,7 @@ export function ChartPane() {
         <button onClick={() => chart.current?.fit()}>all</button>
         <span class="cursor">
           {at
-            ? `east ${fixed(at[0], 1)} m, north ${fixed(at[1], 1)} m${cell ? `; mean ${fixed(cell.mean_m)} m, shoalest ${fixed(cell.shoalest_m)} m, ${cell.count} soundings, sd ${fixed(cell.sd_m)} m` : ""}`
+            ? `${relief ? `${relief.textOf(at[0], at[1])}; ` : ""}east ${fixed(at[0], 1)} m, north ${fixed(at[1], 1)} m${contour != null ? `; contour ${contour.toFixed(1)} m` : ""}${cell ? `; mean ${fixed(cell.mean_m)} m, shoalest ${fixed(cell.shoalest_m)} m, ${cell.count} soundings, sd ${fixed(cell.sd_m)} m` : ""}`
             : ruler || "drag to move, wheel to zoom, shift and click twice to measure"}
           {at && ruler && ` · ruler ${ruler}`}
         </span>

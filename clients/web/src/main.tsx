@@ -1,7 +1,11 @@
 // The console's page.
 import { render } from "preact";
-import { answer, begin, connected, hasChart, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { answer, begin, connected, hasChart, hasLog, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
+import { Alarms } from "./alarms";
 import { ChartPane } from "./chart";
+import { hasHelm, HelmPane } from "./helm";
+import { LogsPane } from "./logs";
+import { NumbersPane } from "./numbers";
 import { Head, HealthPane } from "./panes";
 
 const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
@@ -50,8 +54,19 @@ function Bar() {
 }
 
 const CHART = "chart";
-const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
+const NUMBERS = "numbers";
+const HELM = "helm";
+const LOGS = "logs";
+const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : []), ...(hasLog() ? [LOGS] : [])];
 const panes = () => shown.value ?? [...viewTopics().slice(0, 2).map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
+
+function pane(name: string) {
+  if (name === CHART) return <ChartPane />;
+  if (name === NUMBERS) return <NumbersPane />;
+  if (name === LOGS) return <LogsPane />;
+  if (name === HELM) return <HelmPane />;
+  return <Head topic={name} />;
+}
 
 function toggle(name: string) {
   const now = panes();
@@ -79,8 +94,9 @@ function Page() {
   return (
     <>
       <Bar />
+      <Alarms />
       <div class={`panes n${panes().length}`}>
-        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{topic === CHART ? <ChartPane /> : <Head topic={topic} />}</section>)}
+        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{pane(topic)}</section>)}
         <section class="pane health"><HealthPane /></section>
       </div>
     </>

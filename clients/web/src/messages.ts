@@ -60,6 +60,22 @@ export interface ConsoleItem {
   text: string;
 }
 
+export interface ConsoleScalar {
+  /** name of the number in its message, with dots where it lies deeper */
+  field: string;
+  /** unit in which it is sent: degrees for angles */
+  unit: string;
+  /** meaning of the number */
+  about: string;
+}
+
+export interface ConsoleType {
+  /** message type */
+  type: string;
+  /** numbers of its messages, and what follows from them */
+  scalars: ConsoleScalar[];
+}
+
 export interface ConsoleState {
   /** kind of source: run, record, or empty where nothing is open */
   kind: string;
@@ -79,6 +95,8 @@ export interface ConsoleState {
   speed: number;
   /** topics that can be watched */
   topics: ConsoleTopic[];
+  /** types of these topics that have numbers to be drawn over time */
+  types: ConsoleType[];
   /** live runs and records that can be opened */
   items: ConsoleItem[];
   /** launch files of the installation, to be started from a shell */
@@ -149,6 +167,87 @@ export interface ConsoleTrack {
   point_enu_m: Numbers<Float64Array>;
 }
 
+export interface ConsoleSeries {
+  /** name of the number: TOPIC.field */
+  name: string;
+  /** unit of its values; empty: not known */
+  unit: string;
+  /** index of the first of the new points (1) */
+  first: number;
+  /** sim time of each point (s) */
+  time_s: Numbers<Float64Array>;
+  /** value of each point; NaN: a gap. Of more than ten a second, the least and the greatest of every 0.2 s */
+  value: Numbers<Float64Array>;
+}
+
+export interface ConsoleValues {
+  /** number of the run; with another one all earlier points are void (1) */
+  generation: number;
+  /** numbers with new points */
+  series: ConsoleSeries[];
+}
+
+export interface ConsoleAlarm {
+  /** no_bottom, off_line, late, late_pings, slips, lost, disk, degraded or failed */
+  kind: string;
+  /** name of the process, topic or folder that it is about */
+  source: string;
+  /** cause, in one line */
+  text: string;
+  /** true while its cause lasts; what happens at a moment is never active */
+  active: boolean;
+  /** number of times that it was raised; one that is higher needs another acknowledgement (1) */
+  raised: number;
+  /** sim time at which it was raised last (ns) */
+  since_ns: number;
+}
+
+export interface ConsoleAlarms {
+  /** number of the run; acknowledgements of another one are void (1) */
+  generation: number;
+  /** alarms, at most 64 */
+  alarms: ConsoleAlarm[];
+}
+
+export interface ConsoleLogLine {
+  /** name of the process that wrote it */
+  process: string;
+  /** error, warning or info, by the words of the line */
+  level: string;
+  /** line, at most 500 bytes */
+  text: string;
+}
+
+export interface ConsoleLog {
+  /** number of the run; with another one all earlier lines are void (1) */
+  generation: number;
+  /** index of the first of these lines, of all that were read (1) */
+  first: number;
+  /** lines */
+  lines: ConsoleLogLine[];
+}
+
+export interface ConsoleRelief {
+  /** map of the world's plane, in the words of PROJ: east and north in metres on WGS 84 */
+  projection: string;
+  /** world east of the western posts (m) */
+  west_m: number;
+  /** world north of the southern posts (m) */
+  south_m: number;
+  /** distance between posts (m) */
+  spacing_m: number;
+  /** brightness of each post (north x east, south-west first) in light from the north-west, 1 dark to 255 bright; 0: nothing is known (1) */
+  shade: Numbers<Uint8Array>;
+  /** factor by which slopes are steeper in the shading than they are (1) */
+  exaggeration: number;
+  /** difference of depth between contours (m) */
+  contour_step_m: number;
+  /** depth of each piece of a contour, below chart datum (m) */
+  contour_depth_m: Numbers<Float32Array>;
+  /** straight pieces of contours (piece x 4): east and north of both ends (m) */
+  contour_m: Numbers<Float32Array>;
+}
+
 export interface ConsoleEnter {
   /** token of the URL to view or to control */
   token: string;
@@ -172,6 +271,8 @@ export interface ConsoleWatch {
   hidden: boolean;
   /** topics, at most 64 */
   topics: ConsoleWatched[];
+  /** names of numbers (TOPIC.field) of the topic values, at most 32 */
+  values: string[];
 }
 
 export interface ConsoleDrawn {
@@ -1211,6 +1312,10 @@ export const TYPES: Record<string, string> = {
   "01e9c5843cad59a7": "console_flow/1",
   "d8f4b048f8b65b04": "console_cells/1",
   "05273cc6f0f7bf56": "console_track/1",
+  "68fb0375e540f86d": "console_values/1",
+  "32acf0c61242d64d": "console_alarms/1",
+  "d2524f5428f6d0d3": "console_log/1",
+  "47dd42c4267b4152": "console_relief/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",

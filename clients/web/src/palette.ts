@@ -26,6 +26,9 @@ export const RAMPS: Record<string, Uint32Array> = { inferno: ramp("inferno"), co
 export const DEPTHS: Uint32Array = ramp("depth").reverse();
 /** Pixels are made here and written by the processor: a canvas on a graphics card, or on one that is emulated, would be slower. */
 export const IN_MEMORY: CanvasRenderingContext2DSettings = { willReadFrequently: true };
+/** Colours of what is estimated and of what is true. */
+export const ESTIMATE = "#6fe3ff";
+export const TRUTH = "#ffb454";
 export const EMPTY = 0xff2a2a2a; // where nothing was received, or no beam pointed
 export const GAP = 0xff705030; // where lines are missing
 

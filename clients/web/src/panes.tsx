@@ -1,5 +1,6 @@
 // The panes: pictures of heads, and the health of the run.
 import { useEffect, useRef, useState } from "preact/hooks";
+import { AScan } from "./ascan";
 import { FanPicture, FINDS } from "./fan";
 import { Limits, percentiles, RAMPS } from "./palette";
 import { View } from "./messages";
@@ -92,6 +93,8 @@ function Fan({ topic, first }: { topic: string; first: View }) {
   const [pointer, setPointer] = useState<Pointer | null>(null);
   const picture = useRef<FanPicture | null>(null);
   const [finds, setFinds] = useState(true);
+  const [scan, setScan] = useState(false);
+  const [beam, setBeam] = useState(0);
   const kept = useRef<{ view: View; given: Limits | null; auto: Limits | null; finds: boolean }>({ view: first, given: null, auto: null, finds: true });
   kept.current.given = given;
   kept.current.finds = finds;
@@ -128,13 +131,26 @@ function Fan({ topic, first }: { topic: string; first: View }) {
   );
   useEffect(redraw, [given, finds]);
   const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
+  const chooseBeam = (wanted: number) => {
+    if (Number.isInteger(wanted) && wanted >= 0 && wanted < view.level.shape[0]) setBeam(wanted);
+  };
+  const point = (event: PointerEvent) => {
+    const at = pointerOf(event);
+    setPointer(at);
+    chooseBeam(picture.current?.placeOf(at.x, at.y)?.beam ?? -1); // it stays when the cursor leaves the fan
+  };
   return (
     <>
       <header>
         <b>{topic}</b> ping {view.ping} · {settings(view)} <Flow topic={topic} />
       </header>
-      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={(e) => setPointer(pointerOf(e))} onPointerLeave={() => setPointer(null)} />
+      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={point} onPointerLeave={() => setPointer(null)} />
+      {scan && <AScan view={view} beam={Math.min(beam, view.level.shape[0] - 1)} pointed_m={place && place.beam >= 0 ? place.range_m : null} gain={gainText(view)} />}
       <footer>
+        <label><input type="checkbox" checked={scan} onChange={() => setScan(!scan)} /> A-scan</label>
+        {scan && (
+          <label>beam <input class="beam" type="number" min={0} max={view.level.shape[0] - 1} value={beam} onInput={(e) => chooseBeam(Number((e.target as HTMLInputElement).value))} /></label>
+        )}
         <Scale ramp="inferno" limits={given ?? kept.current.auto} view={view} set={setGiven} />
         {view.find_range_m.data.length > 0 && (
           <label>

@@ -1,6 +1,8 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, Health, View } from "./messages";
+import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleLog, ConsoleRelief, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
+import { clearAlarms, takeAlarms } from "./alarms";
+import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
 
 export const connected = signal(false);
@@ -11,6 +13,8 @@ export const link = signal<ConsoleFlow | null>(null);
 export const answer = signal("");
 export const simTime_s = signal(0);
 export const health = signal<Record<string, Health>>({});
+/** What missions are doing, by topic. */
+export const missions = signal<Record<string, MissionState>>({});
 export const clock = signal<ClockHealth | null>(null);
 /** Topics whose panes are shown; null: those of the layout. */
 export const shown = signal<string[] | null>(null);
@@ -34,11 +38,11 @@ let frameAsked = false;
 
 /** Whether soundings or positions are published. */
 export const hasChart = () => (state.value?.topics ?? []).some((topic) => CHART.includes(topic.name));
-const CHART = ["cells", "track"];
-let chart: ((news: ConsoleCells | ConsoleTrack) => void) | null = null;
+const CHART = ["cells", "track", "relief"];
+let chart: ((news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void) | null = null;
 
 /** Opens the chart's topics for a pane; the result closes them. */
-export function watchChart(take: (news: ConsoleCells | ConsoleTrack) => void): () => void {
+export function watchChart(take: (news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void): () => void {
   chart = take;
   watchAll();
   return () => {
@@ -47,6 +51,44 @@ export function watchChart(take: (news: ConsoleCells | ConsoleTrack) => void): (
     watchAll();
   };
 }
+
+const numbers = new Map<object, string[]>(); // that a pane asks for
+/** Whether there are numbers to be drawn over time. */
+export const hasValues = () => (state.value?.topics ?? []).some((topic) => topic.name === VALUES);
+const VALUES = "values";
+const ALARMS = "alarms";
+const LOG = "log";
+let log: ((news: ConsoleLog) => void) | null = null;
+/** Whether logs of the run's processes can be read. */
+export const hasLog = () => (state.value?.topics ?? []).some((topic) => topic.name === LOG);
+
+/** Opens the logs for a pane; the result closes them. */
+export function watchLog(take: (news: ConsoleLog) => void): () => void {
+  log = take;
+  watchAll();
+  return () => {
+    log = null;
+    watchAll();
+  };
+}
+
+const MOST_VALUES = 32;
+
+/** All numbers (TOPIC.field) that a pane shows from now on. */
+export function wantValues(pane: object, names: string[]) {
+  if (names.length) numbers.set(pane, names);
+  else numbers.delete(pane);
+  watchAll();
+}
+
+let missionTopics: string[] = [];
+/** Topics of mission_state/1 that are shown from now on. */
+export function wantMissions(topics: string[]) {
+  missionTopics = topics;
+  watchAll();
+}
+
+const wantedValues = () => [...new Set([...numbers.values()].flat())].slice(0, MOST_VALUES);
 
 export function viewTopics(): ConsoleTopic[] {
   return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
@@ -57,8 +99,11 @@ const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db:
 function watchAll() {
   const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
-  const states = small.slice(0, 62 - heads.length).map(({ name }) => plain(name));
-  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...(chart ? CHART.map(plain) : []), ...states] });
+  const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
+  const values = wantedValues();
+  keepSeries(values);
+  const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS, ...(log ? [LOG] : [])].map(plain);
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
 }
 
 /** Opens a topic for a pane; the result closes it. */
@@ -98,11 +143,22 @@ function take(frame: Frame) {
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
-  } else if (frame.type === "console_cells/1" || frame.type === "console_track/1") {
-    chart?.(frame.content as ConsoleCells | ConsoleTrack);
+  } else if (frame.type === "console_cells/1" || frame.type === "console_relief/1" || frame.type === "console_track/1") {
+    chart?.(frame.content as ConsoleCells | ConsoleRelief | ConsoleTrack);
+    if (frame.type === "console_track/1") simTime_s.value = Math.max(simTime_s.value, (frame.content as ConsoleTrack).stamp_ns * 1e-9);
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
+  } else if (frame.type === "console_values/1") {
+    simTime_s.value = Math.max(simTime_s.value, takeValues(frame.content as ConsoleValues));
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "health/1") {
     health.value = { ...health.value, [frame.topic.split("/")[0]]: frame.content as Health };
+  } else if (frame.type === "console_log/1") {
+    log?.(frame.content as ConsoleLog);
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
+  } else if (frame.type === "console_alarms/1") {
+    takeAlarms(frame.content as ConsoleAlarms);
+  } else if (frame.type === "mission_state/1") {
+    missions.value = { ...missions.value, [frame.topic]: frame.content as MissionState };
   } else if (frame.type === "clock_health/1") {
     clock.value = frame.content as ClockHealth;
     simTime_s.value = clock.value.stamp_ns * 1e-9;
@@ -112,6 +168,10 @@ function take(frame: Frame) {
     if (other) {
       health.value = {};
       clock.value = null;
+      missions.value = {};
+      clearAlarms();
+      clearSeries();
+      simTime_s.value = 0;
       shown.value = null;
     }
     state.value = fresh;

@@ -27,7 +27,8 @@ def write(file, messages, declares=None):
             if topic not in channels:
                 schema = writer.register_schema(message.TYPE, "jsonschema", b"{}")
                 channels[topic] = writer.register_channel(topic, "msgpack", schema, {"type": message.TYPE, "rank": "0", "max_bytes": "0"})
-            writer.add_message(channels[topic], message.stamp_ns, wire.encode_inline(message.to_map()), message.stamp_ns, 0)
+            stamp_ns = getattr(message, "stamp_ns", 0)  # a chart has none
+            writer.add_message(channels[topic], stamp_ns, wire.encode_inline(message.to_map()), stamp_ns, 0)
         writer.finish()
     return file
 
