@@ -182,8 +182,7 @@ void SeaAcoustics::probe(const Shot& shot, const Echoed& echoed, const trace::Me
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     if (hits.hit(i)) probed.rays.push_back(i);
   }
-  const seabed::ClassTables& backscatter =
-      environment_->backscatter(mesh.facet_mean_square_slope(), probed.facet_laws);
+  const seabed::ClassTables& backscatter = environment_->backscatter(mesh.facet_mean_square_slope(), probed.facet_laws);
   const auto source = power_of(sent_db(shot.source_level_db));
   const Eigen::Matrix3d enu_from_head = pose.enu_from_head.toRotationMatrix();
   probed.scatterers.resize(probed.rays.size());
