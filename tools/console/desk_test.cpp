@@ -86,6 +86,49 @@ TEST_CASE("only topics that somebody watches are asked for") {
   CHECK(scene.wanted == std::set<std::string>{"nav/health"});
 }
 
+TEST_CASE("alarms and numbers ask for the topics that they are made of") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"alarms"});
+  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "nav/health"});
+  msg::ConsoleWatch wish;
+  wish.topics = {{"values", 16, false, 0.0, 0.0}};
+  wish.values = {"bow/ping.pings_per_s", "no/topic.x"};
+  scene.flow.watch(wish, scene.now);
+  scene.desk.settle(scene.flow);
+  CHECK(scene.wanted == std::set<std::string>{"bow/ping"});
+}
+
+TEST_CASE("who comes later gets the alarms that there are, another run begins without") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"alarms"});
+  msg::Health health;
+  health.state = "failed";
+  scene.said = {{"nav/health", {}, msg::encode(health), {}}};
+  scene.desk.poll(scene.now);
+  const auto count = [&](Flow& flow) {
+    const auto sending = flow.next(scene.now);
+    REQUIRE(sending);
+    return msg::decode<msg::ConsoleAlarms>(scene.desk.message_of(*sending).body, 1 << 20).alarms.size();
+  };
+  CHECK(count(scene.flow) == 1);
+  Flow late(scene.now);
+  msg::ConsoleWatch wish;
+  wish.topics = {{"alarms", 16, false, 0.0, 0.0}};
+  late.watch(wish, scene.now);
+  scene.desk.add(late);
+  scene.desk.settle(late);
+  CHECK(count(late) == 1);
+  scene.desk.remove(late);
+  for (const char* word : {"ended", "running"}) {
+    scene.source->word = word;
+    scene.now += std::chrono::seconds(1);
+    scene.desk.poll(scene.now);
+  }
+  CHECK(count(scene.flow) == 0);
+}
+
 TEST_CASE("pings become pictures of the size that is watched, two sides lines, all with the number of their ping") {
   Scene scene;
   scene.desk.add(scene.flow);

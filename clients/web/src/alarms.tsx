@@ -36,7 +36,7 @@ export function Alarms() {
   const fresh = shown.filter(isNew);
   return (
     <section class="alarms" aria-label="alarms">
-      <ul role="alert">
+      <ul aria-live="assertive">
         {[...fresh, ...shown.filter((alarm) => !isNew(alarm))].map((alarm) => (
           <li key={keyOf(alarm)} class={isNew(alarm) ? "new" : "known"} data-alarm={keyOf(alarm)}>
             <b>{WORDS[alarm.kind] ?? alarm.kind}</b> {alarm.source}: {alarm.text}
