@@ -14,7 +14,9 @@
 namespace ensonify {
 namespace {
 
-constexpr int kSilhouette = 32;          // rays each way over a body's extent
+constexpr int kSilhouette = 32;  // rays each way over a body's extent
+constexpr std::size_t kAcross = kSilhouette;
+constexpr double kPerRay = 1.0 / (kAcross * kAcross);
 constexpr int kStripsPerCell = 10;       // where a body is
 constexpr int kFewestStrips = 8;         // of all cells of a sector
 constexpr int kStepsOfSector = 48;       // of a strip's first rays
@@ -149,9 +151,9 @@ std::vector<Labeller::Candidate> Labeller::find_bodies(const Ping& ping) const {
     const double across = std::sqrt(std::max(0.0, 1.0 - sine * sine));
     const double half_rad =
         std::min(across > half ? half / (across - half * half) : std::numbers::pi, std::numbers::pi);
-    Candidate one{&body, std::max(-1.0, sine - half), std::min(1.0, sine + half), angle_rad - half_rad,
-                  angle_rad + half_rad};
-    const std::vector<Patch> within = within_image(ping, {one.lower, one.upper, one.first_rad, one.last_rad});
+    Candidate one{
+        &body, {std::max(-1.0, sine - half), std::min(1.0, sine + half), angle_rad - half_rad, angle_rad + half_rad}};
+    const std::vector<Patch> within = within_image(ping, one.extent);
     if (within.empty()) continue;
     examine(ping, within, one);
     bodies.push_back(std::move(one));
@@ -179,72 +181,70 @@ std::vector<Labeller::Patch> Labeller::within_image(const Ping& ping, const Patc
   return within;
 }
 
-trace::Rays Labeller::rays_over(const Patch& patch) const {
+double Labeller::Patch::sine(int i) const { return std::lerp(lower, upper, (i + 0.5) / kSilhouette); }
+double Labeller::Patch::angle_rad(int j) const { return std::lerp(first_rad, last_rad, (j + 0.5) / kSilhouette); }
+
+/// What rays evenly over a patch hit of a mesh: that of number i, j is i * kSilhouette + j.
+const trace::Hits& Labeller::hits_over(const Ping& ping, const trace::Mesh& mesh, const Patch& patch) const {
   trace::Rays rays;
   for (int i = 0; i < kSilhouette; ++i) {
-    const double sine = std::lerp(patch.lower, patch.upper, (i + 0.5) / kSilhouette);
-    for (int j = 0; j < kSilhouette; ++j) {
-      const double angle_rad = std::lerp(patch.first_rad, patch.last_rad, (j + 0.5) / kSilhouette);
-      rays.push_back({view_.axes.direction(sine, angle_rad), 1.0F});
-    }
+    for (int j = 0; j < kSilhouette; ++j)
+      rays.push_back({view_.axes.direction(patch.sine(i), patch.angle_rad(j)), 1.0F});
   }
-  return rays;
+  ProbeMemory& probed = ping.memory.probed;
+  ping.sea.probe(ping.shot, ping.echoed, mesh, rays, ping.image.range_m, trace::kNoise, ping.shot_memory, probed);
+  return probed.hits;
 }
 
-/// Rays over its extent with the body alone; then within the image, with the body alone and with all that is there.
-void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const {
-  ProbeMemory& probed = ping.memory.probed;
-  const auto hits_of = [&](const trace::Mesh& mesh, const trace::Rays& rays) -> const trace::Hits& {
-    ping.sea.probe(ping.shot, ping.echoed, mesh, rays, ping.image.range_m, trace::kNoise, ping.shot_memory, probed);
-    return probed.hits;
-  };
-  const trace::Mesh& alone = ping.memory.of(*candidate.body);
-  const Patch extent{candidate.lower, candidate.upper, candidate.first_rad, candidate.last_rad};
-  constexpr double kPerRay = 1.0 / (kSilhouette * kSilhouette);
-  double whole_sr = 0.0, inside_sr = 0.0, visible_sr = 0.0;
-  {
-    const trace::Rays rays = rays_over(extent);
-    const trace::Hits& hits = hits_of(alone, rays);
-    double lower = 1.0, upper = -1.0, first = std::numeric_limits<double>::max(), last = -first;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (!hits.hit(i)) continue;
+/// Narrows a body's extent to its silhouette, of which it returns the solid angle.
+double Labeller::narrow(const Ping& ping, const trace::Mesh& alone, Patch& extent) const {
+  const trace::Hits& hits = hits_over(ping, alone, extent);
+  Patch hit{1.0, -1.0, std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  double whole_sr = 0.0;
+  for (int i = 0; i < kSilhouette; ++i) {
+    for (int j = 0; j < kSilhouette; ++j) {
+      if (!hits.hit(static_cast<std::size_t>(i) * kAcross + static_cast<std::size_t>(j))) continue;
       whole_sr += kPerRay * extent.solid_angle_sr();
-      const double sine =
-          std::lerp(extent.lower, extent.upper, (static_cast<double>(i / kSilhouette) + 0.5) / kSilhouette);
-      const double angle_rad =
-          std::lerp(extent.first_rad, extent.last_rad, (static_cast<double>(i % kSilhouette) + 0.5) / kSilhouette);
-      lower = std::min(lower, sine), upper = std::max(upper, sine);
-      first = std::min(first, angle_rad), last = std::max(last, angle_rad);
-    }
-    if (whole_sr > 0.0) {  // it may reach a step further than the rays that hit it
-      const double step = (extent.upper - extent.lower) / kSilhouette;
-      const double step_rad = (extent.last_rad - extent.first_rad) / kSilhouette;
-      candidate.lower = lower - step, candidate.upper = upper + step;
-      candidate.first_rad = first - step_rad, candidate.last_rad = last + step_rad;
+      hit.lower = std::min(hit.lower, extent.sine(i)), hit.upper = std::max(hit.upper, extent.sine(i));
+      hit.first_rad = std::min(hit.first_rad, extent.angle_rad(j));
+      hit.last_rad = std::max(hit.last_rad, extent.angle_rad(j));
     }
   }
-  double visible = 0.0, grazing_rad = 0.0;
+  if (whole_sr == 0.0) return 0.0;
+  // It may reach a step further than the rays that hit it.
+  const double step = (extent.upper - extent.lower) / kSilhouette;
+  const double step_rad = (extent.last_rad - extent.first_rad) / kSilhouette;
+  extent = {hit.lower - step, hit.upper + step, hit.first_rad - step_rad, hit.last_rad + step_rad};
+  return whole_sr;
+}
+
+/// Rays over a body's extent with it alone; then within the image, with it alone and with all that is there.
+void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const {
+  const trace::Mesh& alone = ping.memory.of(*candidate.body);
+  const double whole_sr = narrow(ping, alone, candidate.extent);
+  double inside_sr = 0.0, visible_sr = 0.0, visible = 0.0, grazing_rad = 0.0;
   frames::Vec3 middle = frames::Vec3::Zero();
   for (const Patch& patch : within) {
-    const trace::Rays rays = rays_over(patch);
-    std::vector<bool> silhouette(rays.size());
-    const trace::Hits& of_alone = hits_of(alone, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) silhouette[i] = of_alone.hit(i);
-    const trace::Hits& hits = hits_of(ping.mesh, rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (!silhouette[i]) continue;
+    std::vector<bool> silhouette(kAcross * kAcross);
+    const trace::Hits& of_alone = hits_over(ping, alone, patch);
+    for (std::size_t ray = 0; ray < silhouette.size(); ++ray) silhouette[ray] = of_alone.hit(ray);
+    const trace::Hits& hits = hits_over(ping, ping.mesh, patch);
+    for (std::size_t ray = 0; ray < silhouette.size(); ++ray) {
+      if (!silhouette[ray]) continue;
       inside_sr += kPerRay * patch.solid_angle_sr();
-      if (hits.contributor[i] != candidate.body->contributor) continue;
+      if (hits.contributor[ray] != candidate.body->contributor) continue;
       visible_sr += kPerRay * patch.solid_angle_sr();
       ++visible;
-      middle += hits.position_enu_m[i];
-      grazing_rad += std::asin(std::min(1.0, static_cast<double>(hits.sin_grazing[i])));
+      middle += hits.position_enu_m[ray];
+      grazing_rad += std::asin(std::min(1.0, static_cast<double>(hits.sin_grazing[ray])));
     }
   }
   candidate.seen = inside_sr > 0.0;
+  middle = visible > 0.0 ? frames::Vec3(middle / visible) : frames::Vec3(candidate.body->box_enu_m.center());
 
   const trace::Body& body = *candidate.body->body;
   const frames::Vec3& head = ping.shot.pose().position_enu_m;
+  const frames::Vec3 towards = body.enu_from_body.conjugate() * (head - middle);
   msg::LabelledObject& object = candidate.object;
   object.instance = body.instance;
   object.name = body.name;
@@ -254,11 +254,9 @@ void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidat
   object.visible = candidate.seen ? visible_sr / inside_sr : 0.0;
   object.occluded = candidate.seen ? 1.0 - object.visible : 0.0;
   object.buried = body.buried;
-  middle = visible > 0.0 ? frames::Vec3(middle / visible) : frames::Vec3(candidate.body->box_enu_m.center());
   object.hit_enu_m = {middle.x(), middle.y(), middle.z()};
   object.range_m = (middle - head).norm();
   object.grazing_rad = visible > 0.0 ? grazing_rad / visible : 0.0;
-  const frames::Vec3 towards = body.enu_from_body.conjugate() * (head - middle);
   object.aspect_rad = std::atan2(towards.x(), towards.y());
   object.sediment = body.sediment;
   object.smooth = body.smooth;
@@ -270,10 +268,10 @@ std::vector<std::pair<double, double>> Labeller::angles_of_bodies(std::span<cons
                                                                   double upper) {
   std::vector<std::pair<double, double>> taken;
   for (const Candidate& one : bodies) {
-    if (one.upper < lower || one.lower > upper) continue;
+    if (one.extent.upper < lower || one.extent.lower > upper) continue;
     for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi}) {
-      const double first = std::max(one.first_rad + turn, sector.first_rad);
-      const double last = std::min(one.last_rad + turn, sector.last_rad);
+      const double first = std::max(one.extent.first_rad + turn, sector.first_rad);
+      const double last = std::min(one.extent.last_rad + turn, sector.last_rad);
       if (last > first) taken.emplace_back(first, last);
     }
   }

@@ -72,20 +72,22 @@ class Labeller {
                      Memory& memory) const;
 
  private:
-  /// A body that may be in the image.
-  struct Candidate {
-    const trace::ShownBody* body;
-    double lower, upper;         // sines of its silhouette ...
-    double first_rad, last_rad;  // ... and angles
-    bool seen = false;           // by one of the rays over its silhouette
-    msg::LabelledObject object = {};
-  };
   /// Directions in sine and angle.
   struct Patch {
     double lower, upper, first_rad, last_rad;
 
     bool empty() const { return !(upper > lower && last_rad > first_rad); }
     double solid_angle_sr() const { return (upper - lower) * (last_rad - first_rad); }
+    // Of rays evenly over it, by number each way.
+    double sine(int i) const;
+    double angle_rad(int j) const;
+  };
+  /// A body that may be in the image.
+  struct Candidate {
+    const trace::ShownBody* body;
+    Patch extent;       // of its silhouette
+    bool seen = false;  // by one of the rays over it
+    msg::LabelledObject object = {};
   };
   struct Ping {
     const SeaAcoustics& sea;
@@ -99,7 +101,8 @@ class Labeller {
 
   std::vector<Candidate> find_bodies(const Ping& ping) const;
   std::vector<Patch> within_image(const Ping& ping, const Patch& patch) const;
-  trace::Rays rays_over(const Patch& patch) const;
+  const trace::Hits& hits_over(const Ping& ping, const trace::Mesh& mesh, const Patch& patch) const;
+  double narrow(const Ping& ping, const trace::Mesh& alone, Patch& extent) const;
   void examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const;
   static std::vector<std::pair<double, double>> angles_of_bodies(std::span<const Candidate> bodies,
                                                                  const LabelSector& sector, double lower, double upper);
