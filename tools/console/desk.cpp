@@ -20,6 +20,7 @@ constexpr std::chrono::milliseconds kPollBudget{4};
 constexpr std::chrono::milliseconds kAlarmsEvery{250};
 constexpr std::chrono::milliseconds kLogsEvery{250};
 constexpr std::chrono::seconds kChartEvery{5};
+constexpr int kChartTries = 12;  // a recorder writes the first messages after some seconds
 constexpr std::chrono::seconds kDiskEvery{5};
 constexpr std::size_t kKept = 8;      // pictures that several viewers may share
 constexpr std::size_t kFinds = 16;    // pings of a head whose detections may belong to a picture that is still to come
@@ -150,6 +151,7 @@ bool Desk::poll(WallTime now) {
     alarms_.clear();
     logs_.clear();
     has_map_ = has_relief_ = false;
+    chart_tries_ = 0;
     newest_.clear();
     finds_.clear();
     fault_.clear();
@@ -185,9 +187,11 @@ void Desk::read_logs(WallTime now) {
 /// A chart is published once, before anybody watches: then it is in the record.
 void Desk::find_chart(WallTime now) {
   const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic); };
-  if (has_relief_ || now - chart_sought_ < kChartEvery || std::none_of(viewers_.begin(), viewers_.end(), watches))
+  if (has_relief_ || chart_tries_ >= kChartTries || now - chart_sought_ < kChartEvery ||
+      std::none_of(viewers_.begin(), viewers_.end(), watches))
     return;
   chart_sought_ = now;
+  ++chart_tries_;
   if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) {
     has_relief_ = true;
     offer_relief(relief_of(*chart), now);

@@ -69,6 +69,7 @@ class Desk {
   bool has_map_ = false;
   bool has_relief_ = false;
   WallTime chart_sought_;
+  int chart_tries_ = 0;
   Logs logs_;
   WallTime logs_read_;
   Alarms alarms_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostMessages = 5000;  // at the start of a record
+constexpr std::chrono::seconds kStart{1};
 constexpr int kRounds = 6;
 constexpr int kMostRecords = 8;  // of a folder
 
@@ -109,7 +111,10 @@ void add_contours(const Posts& posts, double step_m, msg::ConsoleRelief& relief)
 std::optional<msg::Chart> chart_in_record(const std::string& file) {
   record::RecordReader reader(file);
   record::RecordedMessage message;
+  std::optional<SimTime> began;
   for (int i = 0; i < kMostMessages && reader.next(message); ++i) {
+    if (!began) began = message.t_sim;
+    if (message.t_sim - *began > kStart) break;
     if (message.channel->type != msg::Chart::kType) continue;
     msg::Chart chart;
     msg::from_value(msg::decode_inline(message.payload), chart, "");
