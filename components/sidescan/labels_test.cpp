@@ -46,7 +46,7 @@ struct Labelled {
   msg::Labels labels;
 };
 
-Labelled labelled(const std::vector<msg::Object>& objects, const SidescanConfig& config = plain()) {
+Sidescan::Report report_with(const std::vector<msg::Object>& objects, const SidescanConfig& config) {
   TileSet tiles(config.lod);
   tiles.insert(tile_of(256.0, 1.0, [](double, double) { return kHead.z() - kAltitude_m; }));
   for (const msg::Object& object : objects) tiles.insert(object);
@@ -54,7 +54,11 @@ Labelled labelled(const std::vector<msg::Object>& objects, const SidescanConfig&
   truth.push(0, {kHead, frames::enu_from_ned()});
   Sidescan head(config, 0);
   const HeadSettings settings = config.start_of(config.channels[0]);
-  auto report = report_of(head, {0, SimTime{0}, settings.range_m}, settings, around(truth, tiles.scene()));
+  return report_of(head, {0, SimTime{0}, settings.range_m}, settings, around(truth, tiles.scene()));
+}
+
+Labelled labelled(const std::vector<msg::Object>& objects, const SidescanConfig& config = plain()) {
+  const auto report = report_with(objects, config);
   return {std::get<0>(report.messages).value(), std::get<2>(report.messages).value()};
 }
 
@@ -126,16 +130,13 @@ TEST_CASE("a thing narrower than a tenth of the beam leaves no mask, and one tha
   CHECK(count(half.labels.shadow_run, 0) == 0);
 }
 
-TEST_CASE("labels are only made when asked for") {
+TEST_CASE("labels are only made when asked for, and leave the ping as it is") {
   SidescanConfig config = plain();
+  const std::vector<msg::Object> objects{box_at(25.0, {1.0, 8.0, 1.5}, 1)};
+  const msg::Ping with = labelled(objects, config).ping;
   config.labels = LabelKind::kNone;
-  TileSet tiles(config.lod);
-  tiles.insert(tile_of(256.0, 1.0, [](double, double) { return kHead.z() - kAltitude_m; }));
-  frames::PoseHistory truth{10'000'000'000};
-  truth.push(0, {kHead, frames::enu_from_ned()});
-  Sidescan head(config, 0);
-  CHECK_FALSE(std::get<2>(head.outputs()).declared);
-  const HeadSettings settings = config.start_of(config.channels[0]);
-  CHECK_FALSE(
-      std::get<2>(report_of(head, {0, SimTime{0}, settings.range_m}, settings, around(truth, tiles.scene())).messages));
+  CHECK_FALSE(std::get<2>(Sidescan(config, 0).outputs()).declared);
+  const auto report = report_with(objects, config);
+  CHECK_FALSE(std::get<2>(report.messages));
+  CHECK(std::get<0>(report.messages)->amplitude_upa == with.amplitude_upa);
 }

@@ -10,7 +10,7 @@
 namespace ensonify {
 namespace {
 
-constexpr double kDiffuseSagitta = 0.001;  // of an object's size: its echo has no phase of its own
+constexpr double kDiffuseSagitta = 0.001;  // of an object's size: outlines of labels
 
 terrain::TileKey key_of(std::int64_t col, std::int64_t row) {
   return {static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)};

@@ -20,8 +20,8 @@ def parser() -> argparse.ArgumentParser:
     of.add_argument("--view", default="polar", choices=["polar", "cartesian"], help="of imaging heads: sample by beam, or a fan")
     of.add_argument("--lines", type=int, default=256, help="lines of a sidescan in a picture (default: 256)")
     of.add_argument("--every", type=int, default=1, help="every so many pictures only")
-    of.add_argument("--white-db", type=float, default=-10.0, help="level of white behind the gain, over the source level")
-    of.add_argument("--range-db", type=float, default=70.0, help="decibels from black to white")
+    of.add_argument("--white-db", type=float, default=-30.0, help="level of white behind the gain, over the source level")
+    of.add_argument("--range-db", type=float, default=55.0, help="decibels from black to white")
     return of
 
 

@@ -15,8 +15,8 @@ from ensonify.messages import Ping
 class Display:
     """From amplitudes to numbers. Both kinds have the head's own gain S log10(R) + 2 A R + O."""
 
-    white_db: float = -10.0  # level of white behind the gain, over the source level
-    range_db: float = 70.0  # from black to white, of 8 bits
+    white_db: float = -30.0  # level of white behind the gain, over the source level
+    range_db: float = 55.0  # from black to white, of 8 bits
     full_scale_db: float = 10.0  # level of 65535 behind the gain, over the source level
 
 
