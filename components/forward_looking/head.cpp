@@ -225,11 +225,8 @@ msg::Labels ForwardLooking::labels_of(const PingEvent& event, const Shot& shot, 
   const std::vector<label::Row> rows = rows_of(reception.sin_beams);
   const std::vector<float> background =
       echoes_.expected_background_upa2(design.shot.pulse, reception, label_view_.lobe, memory_.beams);
-  msg::Labels labels = labeller_->labels(echoes_.sea(), shot, mesh, echoed, design.shot,
-                                         {rows, reception.sampling, background, reach_m}, memory_.shot, memory_.labels);
-  labels.stamp_ns = event.transmit.count();
-  labels.ping = event.ping;
-  return labels;
+  return labeller_->labels(echoes_.sea(), shot, mesh, echoed, design.shot,
+                           {event, rows, reception.sampling, background, reach_m}, memory_.shot, memory_.labels);
 }
 
 /// Delays are made for the sound speed that the head knows; the true one turns its beams.

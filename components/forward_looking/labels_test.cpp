@@ -46,7 +46,7 @@ msg::Object object_at(const solids::Solid& solid, const frames::Vec3& from_head_
   return object;
 }
 
-/// The head points north, and rests unless it is told to turn or move.
+/// The head points north and rests, unless a test adds poses.
 struct Sea {
   explicit Sea(const ForwardLookingConfig& of, const std::function<double(double, double)>& height_m)
       : config(of), tiles(of.lod, kSpeed_mps / of.frequency_hz) {
@@ -218,4 +218,21 @@ TEST_CASE("a wall of the seabed has a shadow of its own, which is no object's") 
   const double metre = 2.0 / kSpeed_mps / std::get<0>(report.messages)->sample_period_s;  // in samples
   CHECK_THAT(first, WithinAbs(std::hypot(8.5, 1.5) * metre, 5.0));
   CHECK_THAT(last, WithinAbs(std::hypot(17.0, 3.0) * metre, 5.0));
+}
+
+TEST_CASE("a body beside the image at transmission is labelled where the head's turn brings it in") {
+  ForwardLookingConfig config = plain();
+  Sea sea(config);
+  for (int i = 1; i <= 20; ++i) {
+    const double t = 0.005 * i;
+    sea.truth.push(from_seconds(t).count(), {kHead, frames::enu_from_body({2.0 * t, 0.0, 0.0})});  // to starboard
+  }
+  const double edge_rad = 0.5 * config.aperture_rad + 0.02;
+  sea.tiles.insert(object_at(solids::Sphere{0.2}, 15.0 * frames::Vec3(std::sin(edge_rad), std::cos(edge_rad), 0.0), 7));
+  const msg::Labels labels = sea.labels();
+  REQUIRE(labels.mask_run.rows() > 0);
+  REQUIRE(labels.objects.size() == 1);
+  CHECK(labels.objects[0].instance == 7);
+  CHECK(labels.objects[0].inside == 0.0);  // at transmission
+  CHECK(labels.objects[0].box[2] <= labels.beams);
 }

@@ -156,10 +156,8 @@ Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, co
     const std::vector<float> background =
         echoes_.expected_background_upa2(design.shot.pulse, design.ranged.sampling, memory_.beams);
     labels = labeller_->labels(sea, shot, mesh, echoed, design.shot,
-                               {{&label_row_, 1}, design.ranged.sampling, background, event.range_m}, memory_.shot,
-                               memory_.labels);
-    labels->stamp_ns = event.transmit.count();
-    labels->ping = event.ping;
+                               {event, {&label_row_, 1}, design.ranged.sampling, background, event.range_m},
+                               memory_.shot, memory_.labels);
   }
   return {.messages = {ping_message(event, sent, design, angle_rad, image), std::move(labels)},
           .trouble = no_echo_reason(echoed.summary(shot, event.range_m, around.seabed))};

@@ -203,9 +203,8 @@ Sidescan::Report Sidescan::ping(const PingEvent& event, const SentPing& sent, co
     const std::vector<float> background =
         echoes_.expected_background_upa2(design.shot.pulse, design.sampling, memory_.beams);
     labels = labeller_->labels(sea, shot, mesh, echoed, design.shot,
-                               {label_rows_, design.sampling, background, event.range_m}, memory_.shot, memory_.labels);
-    labels->stamp_ns = event.transmit.count();
-    labels->ping = event.ping;
+                               {event, label_rows_, design.sampling, background, event.range_m}, memory_.shot,
+                               memory_.labels);
   }
   return {{ping_message(event, settings, design, image), std::move(bottom), std::move(labels)},
           echoed.rays_that_hit > 0};

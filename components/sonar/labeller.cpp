@@ -88,18 +88,25 @@ msg::Labels Labeller::labels(const SeaAcoustics& sea, const Shot& shot, const tr
                           image.background_upa2, masks.own, {.pulse_s = design.pulse.equivalent_length_s()});
 
   msg::Labels labels;
+  labels.stamp_ns = image.event.transmit.count();
+  labels.ping = image.event.ping;
   labels.beams = static_cast<std::int64_t>(image.rows.size());
   labels.samples = image.sampling.count;
-  std::map<std::uint32_t, std::int32_t> places;  // in the list of objects
+  std::map<std::uint32_t, std::int32_t> places;  // in the list of objects; of those in no run yet -1
   const auto place = [&](std::uint32_t whose) { return whose == trace::kNoise ? -1 : places.at(whose); };
   for (const auto* runs : {&masks.own, &shadows.runs}) {
-    for (const label::Run& run : *runs) places.emplace(run.whose, 0);
+    for (const label::Run& run : *runs) places.emplace(run.whose, -1);
   }
-  std::ranges::sort(bodies, {}, [](const Candidate& one) { return one.object.instance; });
-  for (Candidate& one : bodies) {
-    if (!one.seen && !places.contains(one.body->contributor)) continue;
+  std::erase_if(bodies, [&](const Candidate& one) { return !one.seen && !places.contains(one.body->contributor); });
+  // One beside the image at transmission may come into it as the head turns, or darken its edge.
+  for (const trace::ShownBody& body : mesh.bodies()) {
+    if (places.contains(body.contributor) && std::ranges::find(bodies, &body, &Candidate::body) == bodies.end())
+      bodies.push_back(Candidate{&body});
+  }
+  std::ranges::sort(bodies, {}, [](const Candidate& one) { return one.body->body->instance; });
+  for (const Candidate& one : bodies) {
     places[one.body->contributor] = static_cast<std::int32_t>(labels.objects.size());
-    labels.objects.push_back(std::move(one.object));
+    labels.objects.push_back(object_of(ping, one));
   }
   for (const label::Run& run : masks.own) {
     auto& box = labels.objects[static_cast<std::size_t>(place(run.whose))].box;
@@ -240,26 +247,34 @@ void Labeller::examine(const Ping& ping, std::span<const Patch> within, Candidat
     }
   }
   candidate.seen = inside_sr > 0.0;
-  middle = visible > 0.0 ? frames::Vec3(middle / visible) : frames::Vec3(candidate.body->box_enu_m.center());
+  if (whole_sr > 0.0) candidate.inside = std::min(1.0, inside_sr / whole_sr);
+  if (candidate.seen) candidate.visible = visible_sr / inside_sr;
+  if (visible == 0.0) return;
+  candidate.hit_enu_m = middle / visible;
+  candidate.grazing_rad = grazing_rad / visible;
+}
 
+msg::LabelledObject Labeller::object_of(const Ping& ping, const Candidate& candidate) {
   const trace::Body& body = *candidate.body->body;
   const frames::Vec3& head = ping.shot.pose().position_enu_m;
-  const frames::Vec3 towards = body.enu_from_body.conjugate() * (head - middle);
-  msg::LabelledObject& object = candidate.object;
+  const frames::Vec3 hit = candidate.hit_enu_m.value_or(candidate.body->box_enu_m.center());
+  const frames::Vec3 towards = body.enu_from_body.conjugate() * (head - hit);
+  msg::LabelledObject object;
   object.instance = body.instance;
   object.name = body.name;
   object.class_name = body.class_name;
   object.class_id = body.label_class;
-  object.inside = whole_sr > 0.0 ? std::min(1.0, inside_sr / whole_sr) : 0.0;
-  object.visible = candidate.seen ? visible_sr / inside_sr : 0.0;
-  object.occluded = candidate.seen ? 1.0 - object.visible : 0.0;
+  object.inside = candidate.inside;
+  object.visible = candidate.visible;
+  object.occluded = candidate.seen ? 1.0 - candidate.visible : 0.0;
   object.buried = body.buried;
-  object.hit_enu_m = {middle.x(), middle.y(), middle.z()};
-  object.range_m = (middle - head).norm();
-  object.grazing_rad = visible > 0.0 ? grazing_rad / visible : 0.0;
+  object.hit_enu_m = {hit.x(), hit.y(), hit.z()};
+  object.range_m = (hit - head).norm();
+  object.grazing_rad = candidate.grazing_rad;
   object.aspect_rad = std::atan2(towards.x(), towards.y());
   object.sediment = body.sediment;
   object.smooth = body.smooth;
+  return object;
 }
 
 /// Angles of a sector that the bodies about these sines take, one after the other.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,6 +39,7 @@ inline label::MainLobe aperture_lobe(const LineDesign& line) { return {line.firs
 
 /// Image that is labelled.
 struct LabelledImage {
+  const PingEvent& event;
   std::span<const label::Row> rows;
   echo::Sampling sampling;
   std::span<const float> background_upa2;  // expected of noise and water column: row by sample
@@ -66,7 +68,7 @@ class Labeller {
     const trace::Mesh& of(const trace::ShownBody& body);
   };
 
-  /// After the shot's echoes. Its stamp and number are the caller's to add.
+  /// After the shot's echoes.
   msg::Labels labels(const SeaAcoustics& sea, const Shot& shot, const trace::Mesh& mesh, const Echoed& echoed,
                      const ShotDesign& design, const LabelledImage& image, const ShotMemory& shot_memory,
                      Memory& memory) const;
@@ -74,7 +76,7 @@ class Labeller {
  private:
   /// Directions in sine and angle.
   struct Patch {
-    double lower, upper, first_rad, last_rad;
+    double lower = 0.0, upper = 0.0, first_rad = 0.0, last_rad = 0.0;
 
     bool empty() const { return !(upper > lower && last_rad > first_rad); }
     double solid_angle_sr() const { return (upper - lower) * (last_rad - first_rad); }
@@ -85,9 +87,12 @@ class Labeller {
   /// A body that may be in the image.
   struct Candidate {
     const trace::ShownBody* body;
-    Patch extent;       // of its silhouette
-    bool seen = false;  // by one of the rays over it
-    msg::LabelledObject object = {};
+    Patch extent = {};  // of its silhouette
+    // By the rays over it:
+    bool seen = false;                           // one hits it within the image, as if it were alone
+    double inside = 0.0, visible = 0.0;          // as in a label
+    double grazing_rad = 0.0;                    // mean
+    std::optional<frames::Vec3> hit_enu_m = {};  // middle of what is visible
   };
   struct Ping {
     const SeaAcoustics& sea;
@@ -103,6 +108,7 @@ class Labeller {
   std::vector<Patch> within_image(const Ping& ping, const Patch& patch) const;
   const trace::Hits& hits_over(const Ping& ping, const trace::Mesh& mesh, const Patch& patch) const;
   double narrow(const Ping& ping, const trace::Mesh& alone, Patch& extent) const;
+  static msg::LabelledObject object_of(const Ping& ping, const Candidate& candidate);
   void examine(const Ping& ping, std::span<const Patch> within, Candidate& candidate) const;
   static std::vector<std::pair<double, double>> angles_of_bodies(std::span<const Candidate> bodies,
                                                                  const LabelSector& sector, double lower, double upper);

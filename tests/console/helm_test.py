@@ -1,5 +1,4 @@
 """The helm display: the numbers of a known mission, large."""
-import time
 import unittest
 
 from browser import BrowserTest
@@ -17,10 +16,10 @@ class Helm(BrowserTest):
         self.wait_for(lambda: page.locator(".helm").count() and self.big(page, "to-go") != "-")
         early = float(self.big(page, "to-go"))
         page.wait_for_selector("text=ended")
-        time.sleep(0.5)
+        last_s = 19.8
+        self.wait_for(lambda: self.big(page, "cross-track") == f"{abs(-7.25 + 0.5 * last_s):.1f}")
         self.shot(page, "helm")
         self.assertLess(float(self.big(page, "to-go")), early - 8)
-        last_s = 19.8
         self.assertEqual(self.big(page, "cross-track"), f"{abs(-7.25 + 0.5 * last_s):.1f}")
         self.assertEqual(self.big(page, "to-go"), f"{500 - 4 * last_s:.0f}")
         self.assertEqual(self.big(page, "heading"), f"{(200 + 9 * last_s) % 360:.1f}")

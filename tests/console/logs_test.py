@@ -1,5 +1,4 @@
 """Logs of a run's processes beside its record: known lines, in order, as text."""
-import time
 import unittest
 
 from browser import BrowserTest
@@ -44,10 +43,11 @@ class Logs(BrowserTest):
         self.assertEqual(page.locator(".log img").count(), 0)
         self.append("t=4.000 nav error: the antenna is gone\n" + "".join(f"t=5.{i:03} nav fix {i}\n" for i in range(400)))
         page.wait_for_selector("text=fix 399")
-        time.sleep(0.2)
+        at_end = "e => e.scrollHeight - e.scrollTop - e.clientHeight < 8"
+        self.wait_for(lambda: page.locator(".log").evaluate(at_end))
         self.shot(page, "logs")
         self.assertEqual(page.locator(".log > div").count(), 300)  # the newest
-        self.assertTrue(page.locator(".log").evaluate("e => e.scrollHeight - e.scrollTop - e.clientHeight < 8"))
+        self.assertTrue(page.locator(".log").evaluate(at_end))
         page.get_by_label("least level").select_option("error")
         self.wait_for(lambda: page.locator(".log > div").all_inner_texts() == ["nav t=4.000 nav error: the antenna is gone"])
         page.get_by_label("least level").select_option("info")

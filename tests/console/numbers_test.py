@@ -1,6 +1,5 @@
 """Numbers over time: what a viewer gets of known ones, and where the page draws them."""
 import math
-import time
 import unittest
 
 import numpy as np
@@ -83,7 +82,8 @@ class Strips(BrowserTest):
         page = self.open(at.view)
         page.get_by_label("numbers", exact=True).check()
         page.wait_for_selector("text=ended")
-        time.sleep(0.6)
+        roll = page.locator('[data-number="nav/estimate.roll_rad"]')
+        self.wait_for(lambda: roll.inner_text() == f"{ESTIMATED_ROLL_DEG:.2f} deg")
         self.shot(page, "numbers")
         self.assertEqual(page.locator('[data-number="nav/estimate.roll_rad"]').inner_text(), f"{ESTIMATED_ROLL_DEG:.2f} deg")
         self.assertEqual(page.locator('[data-number="boat/pose.roll_rad"]').inner_text(), f"{TRUE_ROLL_DEG:.2f} deg")

@@ -100,6 +100,21 @@ class Formats(unittest.TestCase):
             self.assertEqual(annotation["area"], thing.mask.sum())
         self.assertEqual(coco.getAnnIds(imgIds=2), [])
 
+    def test_pycocotools_reads_masks_of_any_form_back(self):
+        from pycocotools import mask as coco_mask
+        rng = np.random.default_rng(5)
+        for share in (0.02, 0.5, 0.98):
+            pixels = rng.random((17, 23)) < share
+            pixels[0, 0] = pixels[-1, -1] = share > 0.5
+            form = formats.segmentation(pixels)
+            if isinstance(form, dict):
+                np.testing.assert_array_equal(coco_mask.decode(coco_mask.frPyObjects(form, *pixels.shape)).astype(bool), pixels)
+
+    def test_an_instance_that_16_bits_do_not_hold_is_refused(self):
+        self.picture.things[0].instance = 65535
+        with self.assertRaisesRegex(RunError, "instance 65535; masks of 16 bits hold up to 65534"):
+            self.write(formats.Masks(self.folder))
+
     def test_webdataset_reads_the_shards(self):
         import webdataset
         self.write(formats.WebDataset(self.folder, pictures_per_shard=1))
@@ -206,6 +221,17 @@ class Pictures(unittest.TestCase):
         self.assertEqual(labels.layer(of)[1].tolist(), [0, 0, 9, 9, 0, 0, 0, 0])
         self.assertEqual(labels.shadow_db(of)[1].tolist(), [0, 0, 0, 0, 0, 60, 7, 0])
         self.assertEqual(labels.labels_topic("side/ping_main"), "side/labels_main")
+
+    def test_labels_that_do_not_fit_their_image_are_refused(self):
+        for runs in ([(0, 4, 0, 1)], [(0, 0, 0, 9)], [(1, 0, 0, 1)], [(0, 0, 3, 3)], [(0, 0, 3)]):
+            record = Record("eye/ping", [(ping(0, "forward_looking", 8, 4), label(0, 8, 4, runs))])
+            with self.subTest(runs), self.assertRaisesRegex(RunError, "eye/labels: ping 0: runs"):
+                list(pictures.pictures(record, "eye/ping"))
+
+    def test_a_ping_without_labels_is_left_out(self):
+        pairs = [(ping(n, "forward_looking", 8, 4), label(n, 8, 4, [(0, 3, 6, 8)])) for n in range(4)]
+        record = Record("eye/ping", [pairs[0], pairs[1][:1], pairs[2][1:], pairs[3]])
+        self.assertEqual([pair.ping.ping for pair in labels.labelled(record, "eye/ping")], [0, 3])
 
     def test_an_imaging_head_stands_upright_port_left(self):
         record = Record("eye/ping", [(ping(0, "forward_looking", 8, 4), label(0, 8, 4, [(0, 3, 6, 8)]))])

@@ -21,7 +21,7 @@ struct Blocked {
 /// A strip by samples.
 struct Profile {
   std::vector<float> seabed_upa2;  // without bodies
-  std::vector<char> lit;           // the seabed is there
+  std::vector<char> there;         // the seabed is there
   std::vector<Blocked> blocked;
   double sine = 0.0;  // of arrival, mean
 };
@@ -45,7 +45,7 @@ void add_between(const Strip& strip, const Point& a, const Point& b, const echo:
     const auto level =
         static_cast<float>(std::max(0.0, to - from > 1e-6 ? part / length : 1.0) * sent * samples_per_period);
     profile.seabed_upa2[static_cast<std::size_t>(k)] += level;
-    profile.lit[static_cast<std::size_t>(k)] = 1;
+    profile.there[static_cast<std::size_t>(k)] = 1;
     for (const std::uint32_t body : by) {
       if (body != trace::kNoise) profile.blocked.push_back({k, body, 0.5F * level});
     }
@@ -56,7 +56,7 @@ Profile profile_of(const Strip& strip, std::span<const Point> points, const Fine
                    const echo::Sampling& sampling, double pulse_s) {
   Profile profile;
   profile.seabed_upa2.resize(static_cast<std::size_t>(sampling.count));
-  profile.lit.resize(profile.seabed_upa2.size());
+  profile.there.resize(profile.seabed_upa2.size());
   profile.sine = strip.sine;
   double sum = 0.0;
   int hits = 0;
@@ -154,7 +154,7 @@ Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<
       all += power * static_cast<float>(strips[s].counted);
       for (std::size_t k = 0; k < count; ++k) {
         without[k] += power * profile.seabed_upa2[k];
-        covered[k] += profile.lit[k] != 0 ? weight : 0.0F;
+        covered[k] += profile.there[k] != 0 ? weight : 0.0F;
       }
       for (const Blocked& of : profile.blocked) blocked.add(of, power);
     }
@@ -163,15 +163,15 @@ Shadows find_shadows(std::span<const Strip> strips, std::span<const std::vector<
     for (const Run& run : masks[r]) std::fill(masked.begin() + run.first, masked.begin() + run.end, true);
 
     const std::span<const float> background = background_upa2.subspan(r * count, count);
-    const auto lit = [&](std::size_t k) { return covered[k] > kOwnShadow * all; };
+    const auto answers = [&](std::size_t k) { return covered[k] > kOwnShadow * all; };
     std::size_t last = count;
-    while (last > 0 && !lit(last - 1)) --last;
-    bool answered = false;  // the last that was lit, over the background
+    while (last > 0 && !answers(last - 1)) --last;
+    bool answered = false;  // the last that did, over the background
     for (std::size_t k = 0; k < last; ++k) {
       const auto row = static_cast<std::int32_t>(r), sample = static_cast<std::int32_t>(k);
-      if (lit(k)) answered = without[k] > background[k];
+      if (answers(k)) answered = without[k] > background[k];
       if (masked[k] || !answered) continue;
-      if (!lit(k)) {
+      if (!answers(k)) {
         found[r].add(trace::kNoise, row, sample, 0.0);
         continue;
       }

@@ -44,8 +44,27 @@ def labelled(record, topic: str) -> Iterator[Labelled]:
         other = waiting.pop(content.ping, None)
         if other is None:
             waiting[content.ping] = content
-        else:
-            yield Labelled(content, other) if isinstance(other, Labels) else Labelled(other, content)
+            continue
+        waiting.clear()  # both come in order: what waits has lost its other half
+        ping, labels = (content, other) if isinstance(other, Labels) else (other, content)
+        check(labels, beside)
+        yield Labelled(ping, labels)
+
+
+def check(labels: Labels, topic: str) -> None:
+    """Raises RunError for runs that do not lie in the image or belong to no object."""
+    for runs, least in ((labels.mask_run, 0), (labels.layer_run, 0), (labels.shadow_run, SEABED)):
+        if runs.size == 0:
+            continue
+        if runs.ndim != 2 or runs.shape[1] != 4:
+            raise RunError(f"{topic}: ping {labels.ping}: runs of shape {runs.shape}; allowed is (runs, 4)", EXIT_BAD_INPUT)
+        whose, beam, first, end = runs.T
+        if (whose.min() < least or whose.max() >= len(labels.objects) or beam.min() < 0 or beam.max() >= labels.beams
+                or first.min() < 0 or end.max() > labels.samples or (end <= first).any()):
+            raise RunError(f"{topic}: ping {labels.ping}: runs lie outside the image of {labels.beams} x {labels.samples} or name no object", EXIT_BAD_INPUT)
+    shadowed = int((labels.shadow_run[:, 3] - labels.shadow_run[:, 2]).sum()) if labels.shadow_run.size else 0
+    if labels.shadow_db.size != shadowed:
+        raise RunError(f"{topic}: ping {labels.ping}: shadow_db does not fit its runs", EXIT_BAD_INPUT)
 
 
 def _fill(runs: np.ndarray, wanted: int, into: np.ndarray) -> np.ndarray:

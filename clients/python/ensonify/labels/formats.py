@@ -14,7 +14,9 @@ from PIL import Image
 
 from ensonify.labels import outlines
 from ensonify.labels.pictures import Picture, Thing
+from ensonify.session import EXIT_BAD_INPUT, RunError
 
+SEABED_SHADOW = 65535  # in 16 bits, whose shadow it is
 AROUND = ("object", "object+shadow", "shadow")
 
 
@@ -31,17 +33,16 @@ def part(thing: Thing, around: str) -> np.ndarray:
 
 
 class Classes:
-    """Names and numbers of classes: from 1 in the order of their names, when all are known."""
+    """Names of classes, in the order of their numbers when all are known."""
 
     def __init__(self):
-        self.names: dict = {}  # class_id of the scenario -> name
+        self.names: set = set()
 
     def add(self, picture: Picture) -> None:
-        for thing in picture.things:
-            self.names[thing.class_id] = thing.class_name
+        self.names.update(thing.class_name for thing in picture.things)
 
     def ordered(self) -> list:
-        return sorted(set(self.names.values()))
+        return sorted(self.names)
 
 
 class Images:
@@ -78,16 +79,24 @@ class Masks:
         self.folder = folder
 
     def add(self, picture: Picture) -> None:
-        _write(self.folder / "masks" / f"{picture.name}.png", png(picture.layer.astype(np.uint16)))
+        _write(self.folder / "masks" / f"{picture.name}.png", png(mask_layer(picture)))
         _write(self.folder / "shadows" / f"{picture.name}.png", png(shadow_layer(picture)))
 
     def close(self) -> None:
         pass
 
 
+def mask_layer(picture: Picture) -> np.ndarray:
+    """Instance of each pixel, 16 bits. Raises RunError for instances that 16 bits do not hold beside the seabed's shadow."""
+    largest = max((thing.instance for thing in picture.things), default=0)
+    if largest >= SEABED_SHADOW:
+        raise RunError(f"{picture.name}: instance {largest}; masks of 16 bits hold up to {SEABED_SHADOW - 1}", EXIT_BAD_INPUT)
+    return picture.layer.astype(np.uint16)
+
+
 def shadow_layer(picture: Picture) -> np.ndarray:
     """Whose shadow each pixel is: instance, 65535 the seabed's, 0 none."""
-    layer = np.where(picture.seabed_shadow, 65535, 0).astype(np.uint16)
+    layer = np.where(picture.seabed_shadow, SEABED_SHADOW, 0).astype(np.uint16)
     for thing in picture.things:
         layer[thing.shadow] = thing.instance
     return layer
@@ -215,7 +224,7 @@ class WebDataset:
             self.shard = tarfile.open(self.folder / f"shard-{self.count // self.most:06d}.tar", "w", format=tarfile.USTAR_FORMAT)
         self.count += 1
         for suffix, content in (("png", png(picture.grey)), ("amplitude.png", png(picture.linear)),
-                                ("mask.png", png(picture.layer.astype(np.uint16))), ("shadow.png", png(shadow_layer(picture))),
+                                ("mask.png", png(mask_layer(picture))), ("shadow.png", png(shadow_layer(picture))),
                                 ("json", json.dumps(facts_of(picture)).encode())):
             info = tarfile.TarInfo(f"{picture.name}.{suffix}")
             info.size = len(content)
