@@ -225,9 +225,9 @@ TEST_CASE("a body beside the image at transmission is labelled where the head's 
   Sea sea(config);
   for (int i = 1; i <= 20; ++i) {
     const double t = 0.005 * i;
-    sea.truth.push(from_seconds(t).count(), {kHead, frames::enu_from_body({2.0 * t, 0.0, 0.0})});  // to starboard
+    sea.truth.push(from_seconds(t).count(), {kHead, frames::enu_from_body({3.0 * t, 0.0, 0.0})});  // to starboard
   }
-  const double edge_rad = 0.5 * config.aperture_rad + 0.02;
+  const double edge_rad = 0.5 * config.aperture_rad + 0.035;
   sea.tiles.insert(object_at(solids::Sphere{0.2}, 15.0 * frames::Vec3(std::sin(edge_rad), std::cos(edge_rad), 0.0), 7));
   const msg::Labels labels = sea.labels();
   REQUIRE(labels.mask_run.rows() > 0);
