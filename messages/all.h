@@ -21,11 +21,11 @@ namespace ensonify::msg {
 using AllMessages =
     std::tuple<Pose, Guidance, Helm, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
-               Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Transmit, SonarSettings, Tile, TileRelease,
-               Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration, PagerDeclaration, Health,
-               ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack, ConsoleValues, ConsoleAlarms,
-               ConsoleLog, ConsoleRelief, ConsoleEnter, ConsoleWatch, ConsoleDrawn, ConsoleOpen, ConsoleCommand,
-               ConsoleAnswer>;
+               Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Energies, Transmit, SonarSettings, Tile,
+               TileRelease, Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration,
+               PagerDeclaration, Health, ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack,
+               ConsoleValues, ConsoleAlarms, ConsoleLog, ConsoleRelief, ConsoleEnter, ConsoleWatch, ConsoleDrawn,
+               ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

@@ -89,4 +89,55 @@ struct Labels {
   }
 };
 
+/// Source of sound in a ping.
+struct EnergySource {
+  std::string kind;
+  std::string path;
+  std::int64_t instance = 0;
+  std::string name;
+  std::string class_name;
+  std::int64_t class_id = 0;
+  std::int64_t sediment = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("kind", "", "kind of source: noise, volume (the water), other heads, surface, seabed or object", self.kind);
+    visit("path", "", "way of the sound: direct, surface (out or back by way of it) or bottom (by way of both)",
+          self.path);
+    visit("instance", "1", "number of the object in the world, from 1; 0: none", self.instance);
+    visit("name", "", "name of the object in the scenario", self.name);
+    visit("class_name", "", "class of the object", self.class_name);
+    visit("class_id", "1", "number of the object's class, from 1; 0: no object", self.class_id);
+    visit("sediment", "1", "sediment class, of the seabed or of what the object scatters as", self.sediment);
+  }
+};
+
+struct Energies {
+  static constexpr const char* kType = "energies/1";
+  static constexpr const char* kAbout =
+      "Who sends how much of each sample of a ping, expected over all draws of speckle and noise. Truth.";
+  std::int64_t stamp_ns = 0;
+  std::int64_t ping = 0;
+  std::int64_t beams = 0;
+  std::int64_t samples = 0;
+  std::vector<EnergySource> sources;
+  Array<std::int32_t> run;
+  Array<float> energy_upa2;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stamp_ns", "ns", "time of transmission, sim time, as of the ping", self.stamp_ns);
+    visit("ping", "1", "ping number of this head, as of the ping", self.ping);
+    visit("beams", "1", "rows of the image", self.beams);
+    visit("samples", "1", "columns of the image", self.samples);
+    visit("sources", "", "sources of sound; the first is noise, and of equals the earlier counts as the stronger",
+          self.sources);
+    visit("run", "1",
+          "runs (run x 4) of what sources send: place in sources, beam, first sample, sample after the last. What is "
+          "less than a millionth of a sample is left out",
+          self.run);
+    visit("energy_upa2", "uPa^2", "mean square at each sample of the runs, one after the other", self.energy_upa2);
+  }
+};
+
 }  // namespace ensonify::msg

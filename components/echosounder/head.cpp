@@ -55,6 +55,7 @@ Apertures apertures_of(const EchosounderConfig& config) {
   a.nearest_m = 1.0;
   a.resolution_m = range_resolution_m(config);
   a.seed = config.world->seed;
+  a.drawn_seed = config.drawn_seed();
   a.process = config.process;
   return a;
 }

@@ -88,7 +88,8 @@ std::vector<label::Row> rows_of(std::span<const float> sin_beams) {
   return rows;
 }
 
-ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray& line, const ForwardFaces& faces) {
+ArrayEchoes echoes_of(const ForwardLookingConfig& config, const array::LineArray& line, const ForwardFaces& faces,
+                      const Effects& effects) {
   ReceiveArray array;
   array.frequency_hz = config.frequency_hz;
   array.elements = echo::element_line(line, wavelength_m(config));
@@ -96,9 +97,9 @@ ReceiveArray array_of(const ForwardLookingConfig& config, const array::LineArray
   array.element = faces.element;
   array.noise_share = faces.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
-  array.seed = config.world->seed;
+  array.seed = config.drawn_seed();
   array.process = config.process;
-  return array;
+  return {array, std::make_shared<const Environment>(*config.world, config.frequency_hz), effects, config.quality};
 }
 
 }  // namespace
@@ -146,19 +147,22 @@ ForwardLooking::ForwardLooking(const Config& config, std::size_t)
     : config_(config),
       line_(line_of(config)),
       faces_(config, line_.line.element_length_m / wavelength_m(config)),
-      echoes_(array_of(config, line_.line, faces_),
-              std::make_shared<const Environment>(*config.world, config.frequency_hz), config.effects, config.quality),
+      echoes_(echoes_of(config, line_.line, faces_, config.effects)),
       beam_angle_rad_(array::equiangular_beams_rad(0.5 * config.aperture_rad, config.beams)),
       volume_directions_(echoes_.volume_directions(
           [this](const Eigen::Vector3f& direction) { return faces_.transmit.power(direction); }, kVolumeStep_rad)),
       label_view_(label_view_of(config, line_, faces_.element)) {
   if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_);
+  if (config.labels == LabelKind::kEnergies)
+    expectation_.emplace(echoes_of(config, line_.line, faces_, without_speckle(config.effects)));
 }
 
-HeadOutputs<msg::Ping, msg::Labels> ForwardLooking::outputs() const {
+HeadOutputs<msg::Ping, msg::Labels, msg::Energies> ForwardLooking::outputs() const {
   const auto samples = static_cast<std::size_t>(config_.beams) * static_cast<std::size_t>(config_.pulse.most_samples);
   const std::size_t bytes = samples * sizeof(float) + 65536;
-  return {{"ping", bytes}, {"labels", bytes, config_.labels != LabelKind::kNone}};
+  return {{"ping", bytes},
+          {"labels", bytes, config_.labels != LabelKind::kNone},
+          {"energies", kEnergySources * bytes, config_.labels == LabelKind::kEnergies}};
 }
 
 SentPing ForwardLooking::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
@@ -184,7 +188,8 @@ ForwardLooking::Design ForwardLooking::prepare(const HeadSettings& settings) con
           settings.pulse_length_s,
           ranged,
           {echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-           echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays), {config_.world->seed, "seabed"}),
+           echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays),
+                              {config_.world->seed, "seabed", config_.drawn_seed()}),
            trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m),
                                   {config_.world->seed, config_.process + "/rays"})}};
 }
@@ -214,8 +219,16 @@ ForwardLooking::Report ForwardLooking::ping(const PingEvent& event, const SentPi
   const auto images = echoes_.beamform(shot, echoed, design.shot, reception, memory_.beams);
   std::optional<msg::Labels> labels;
   if (labeller_) labels = labels_of(event, shot, mesh, echoed, design, reception, reach_m);
+  std::optional<msg::Energies> energies;
+  if (expectation_) {
+    const auto receive = [&](const echo::Arrivals& of_others) {
+      return ArrayReception{event.number(), sampling, memory_.sin_beams, volume_directions_, of_others};
+    };
+    energies = expectation_->of({event, config_.beams, sampling.count}, shot, mesh, insonified, design.shot, receive,
+                                memory_.expected);
+  }
 
-  return {.messages = {ping_message(event, sent, design, images.front()), std::move(labels)},
+  return {.messages = {ping_message(event, sent, design, images.front()), std::move(labels), std::move(energies)},
           .trouble = no_echo_reason(echoed.summary(shot, settings.range_m, around.seabed))};
 }
 

@@ -6,6 +6,7 @@
 
 #include "components/forward_looking/config.h"
 #include "components/sonar/array_echoes.h"
+#include "components/sonar/expectation.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -41,7 +42,7 @@ class ForwardLooking {
  public:
   using Config = ForwardLookingConfig;
   static constexpr const char* kComponent = "forward_looking";
-  using Report = HeadReport<msg::Ping, msg::Labels>;
+  using Report = HeadReport<msg::Ping, msg::Labels, msg::Energies>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -59,7 +60,7 @@ class ForwardLooking {
   /// The configuration outlives the head.
   ForwardLooking(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping, msg::Labels> outputs() const;
+  HeadOutputs<msg::Ping, msg::Labels, msg::Energies> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -81,6 +82,7 @@ class ForwardLooking {
     std::vector<float> sin_beams;
     ArrayEchoes::Memory beams;
     Labeller::Memory labels;
+    Expectation<ArrayEchoes>::Memory expected;
   };
 
   const Config& config_;
@@ -91,6 +93,7 @@ class ForwardLooking {
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
   LabelView label_view_;
   std::optional<Labeller> labeller_;
+  std::optional<Expectation<ArrayEchoes>> expectation_;
   Memory memory_;
 };
 

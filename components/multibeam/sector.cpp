@@ -64,7 +64,7 @@ ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, 
   array.element = pattern.element();
   array.noise_share = pattern.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
-  array.seed = config.world->seed;
+  array.seed = config.drawn_seed();
   array.process = config.process;
   array.suffix = suffix_of(sector);
   return array;
@@ -94,7 +94,8 @@ Sector::Design Sector::prepare(const HeadSettings& settings) const {
   };
   return {sectors_of(config_, swath_rad)[number_].centre_rad,
           ShotDesign(config_.pulse(settings.pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays), {config_.world->seed, "seabed"}),
+                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays),
+                                        {config_.world->seed, "seabed", config_.drawn_seed()}),
                      trace::RayDistribution(volume_of(config_, arrays_, number_, swath_rad), rays,
                                             {config_.world->seed, config_.process + "/rays" + suffix_of(number_)})),
           echoes_.volume_directions(transmitted, kVolumeStep_beamwidths * config_.transmit_beamwidth_rad)};

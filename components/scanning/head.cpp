@@ -43,7 +43,7 @@ double resolution_m(const ScanningConfig& config) {
   return 0.5 * kNominalSpeed_mps / pulse_at(config.pulse, config.range_m, config.sound_speed_mps).band_hz;
 }
 
-Apertures apertures_of(const ScanningConfig& config, const LineDesign& line) {
+ApertureEchoes echoes_of(const ScanningConfig& config, const LineDesign& line, const Effects& effects) {
   Apertures a;
   a.frequency_hz = config.frequency_hz;
   a.patterns.transmit = a.patterns.receive = {pattern_of(config, line)};
@@ -53,8 +53,9 @@ Apertures apertures_of(const ScanningConfig& config, const LineDesign& line) {
   a.narrow_axis_head = Eigen::Vector3f::UnitY();
   a.resolution_m = resolution_m(config);
   a.seed = config.world->seed;
+  a.drawn_seed = config.drawn_seed();
   a.process = config.process;
-  return a;
+  return {a, std::make_shared<const Environment>(*config.world, config.frequency_hz), effects, config.quality};
 }
 
 trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& line) {
@@ -97,15 +98,18 @@ Scanning::Scanning(const Config& config, std::size_t) : Scanning(config, narrow_
 Scanning::Scanning(const Config& config, const LineDesign& line)
     : config_(config),
       rays_(rays_of(config, line)),
-      echoes_(apertures_of(config, line), std::make_shared<const Environment>(*config.world, config.frequency_hz),
-              config.effects, config.quality),
+      echoes_(echoes_of(config, line, config.effects)),
       label_row_(aperture_row(line)) {
   if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_of(config, line, echoes_.receive().front()));
+  if (config.labels == LabelKind::kEnergies)
+    expectation_.emplace(echoes_of(config, line, without_speckle(config.effects)));
 }
 
-HeadOutputs<msg::Ping, msg::Labels> Scanning::outputs() const {
+HeadOutputs<msg::Ping, msg::Labels, msg::Energies> Scanning::outputs() const {
   const std::size_t bytes = static_cast<std::size_t>(config_.pulse.most_samples) * sizeof(float) + 65536;
-  return {{"ping", bytes}, {"labels", bytes, config_.labels != LabelKind::kNone}};
+  return {{"ping", bytes},
+          {"labels", bytes, config_.labels != LabelKind::kNone},
+          {"energies", kEnergySources * bytes, config_.labels == LabelKind::kEnergies}};
 }
 
 SentPing Scanning::transmit(SimTime, const HeadSettings& settings, const Surroundings& around) const {
@@ -159,7 +163,15 @@ Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, co
                                {event, {&label_row_, 1}, design.ranged.sampling, background, event.range_m},
                                memory_.shot, memory_.labels);
   }
-  return {.messages = {ping_message(event, sent, design, angle_rad, image), std::move(labels)},
+  std::optional<msg::Energies> energies;
+  if (expectation_) {
+    const auto receive = [&](const echo::Arrivals& of_others) {
+      return ApertureReception{event.number(), design.ranged.sampling, of_others};
+    };
+    energies = expectation_->of({event, 1, design.ranged.sampling.count}, shot, mesh, insonified, design.shot, receive,
+                                memory_.expected);
+  }
+  return {.messages = {ping_message(event, sent, design, angle_rad, image), std::move(labels), std::move(energies)},
           .trouble = no_echo_reason(echoed.summary(shot, event.range_m, around.seabed))};
 }
 

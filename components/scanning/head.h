@@ -5,6 +5,7 @@
 
 #include "components/scanning/config.h"
 #include "components/sonar/aperture_echoes.h"
+#include "components/sonar/expectation.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -22,7 +23,7 @@ class Scanning {
  public:
   using Config = ScanningConfig;
   static constexpr const char* kComponent = "scanning";
-  using Report = HeadReport<msg::Ping, msg::Labels>;
+  using Report = HeadReport<msg::Ping, msg::Labels, msg::Energies>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -40,7 +41,7 @@ class Scanning {
   /// The configuration outlives the head.
   Scanning(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping, msg::Labels> outputs() const;
+  HeadOutputs<msg::Ping, msg::Labels, msg::Energies> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -59,6 +60,7 @@ class Scanning {
     ShotMemory shot;
     ApertureEchoes::Memory beams;
     Labeller::Memory labels;
+    Expectation<ApertureEchoes>::Memory expected;
   };
 
   const Config& config_;
@@ -66,6 +68,7 @@ class Scanning {
   ApertureEchoes echoes_;
   label::Row label_row_;
   std::optional<Labeller> labeller_;
+  std::optional<Expectation<ApertureEchoes>> expectation_;
   Memory memory_;
 };
 

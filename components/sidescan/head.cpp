@@ -76,7 +76,8 @@ AperturePatterns patterns_of(const SidescanConfig& config, const SidescanChannel
   return {sides(array::NearFieldFactor::Focus::kOff), sides(received_focus(channel))};
 }
 
-Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line) {
+ApertureEchoes echoes_of(const SidescanConfig& config, const SidescanChannel& channel, const LineDesign& line,
+                         const Effects& effects) {
   Apertures a;
   a.frequency_hz = channel.frequency_hz;
   a.patterns = patterns_of(config, channel, line);
@@ -85,8 +86,9 @@ Apertures apertures_of(const SidescanConfig& config, const SidescanChannel& chan
   a.narrowest_rad = channel.horizontal_beamwidth_rad;
   a.resolution_m = channel.resolution_m(config.sound_speed_mps);
   a.seed = config.world->seed;
+  a.drawn_seed = config.drawn_seed();
   a.process = config.process;
-  return a;
+  return {a, std::make_shared<const Environment>(*config.world, channel.frequency_hz), effects, config.quality};
 }
 
 /// To both sides. Across-track only range distinguishes echoes.
@@ -146,18 +148,22 @@ Sidescan::Sidescan(const Config& config, const SidescanChannel& channel, const L
     : config_(config),
       channel_(channel),
       rays_(rays_of(config, channel, line)),
-      echoes_(apertures_of(config, channel, line),
-              std::make_shared<const Environment>(*config.world, channel.frequency_hz), config.effects, config.quality),
+      echoes_(echoes_of(config, channel, line, config.effects)),
       bottom_(bottom_of(config)),
       label_rows_{aperture_row(line, 0), aperture_row(line, 1)} {
   if (config.labels != LabelKind::kNone) labeller_.emplace(label_view_of(line, echoes_.receive()));
+  if (config.labels == LabelKind::kEnergies)
+    expectation_.emplace(echoes_of(config, channel, line, without_speckle(config.effects)));
 }
 
-HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels> Sidescan::outputs() const {
+HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels, msg::Energies> Sidescan::outputs() const {
   const double longest_s = config_.reception_s(channel_.range_m, config_.limits_of(channel_)["pulse_length_s"].most);
   const auto samples = static_cast<std::size_t>(longest_s / channel_.sample_period_s() + 2.0);
   const std::size_t bytes = 2 * sizeof(float) * samples + 65536;
-  return {{"ping", bytes}, {"bottom"}, {"labels", bytes, config_.labels != LabelKind::kNone}};
+  return {{"ping", bytes},
+          {"bottom"},
+          {"labels", bytes, config_.labels != LabelKind::kNone},
+          {"energies", kEnergySources * bytes, config_.labels == LabelKind::kEnergies}};
 }
 
 SentPing Sidescan::transmit(SimTime, const HeadSettings& settings, const Surroundings&) const {
@@ -206,7 +212,15 @@ Sidescan::Report Sidescan::ping(const PingEvent& event, const SentPing& sent, co
                                {event, label_rows_, design.sampling, background, event.range_m}, memory_.shot,
                                memory_.labels);
   }
-  return {{ping_message(event, settings, design, image), std::move(bottom), std::move(labels)},
+  std::optional<msg::Energies> energies;
+  if (expectation_) {
+    const auto receive = [&](const echo::Arrivals& of_others) {
+      return ApertureReception{event.number(), design.sampling, of_others};
+    };
+    energies = expectation_->of({event, 2, design.sampling.count}, shot, mesh, insonified, design.shot, receive,
+                                memory_.expected);
+  }
+  return {{ping_message(event, settings, design, image), std::move(bottom), std::move(labels), std::move(energies)},
           echoed.rays_that_hit > 0};
 }
 

@@ -6,6 +6,7 @@
 #include "components/sidescan/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
+#include "components/sonar/expectation.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -23,7 +24,7 @@ class Sidescan {
  public:
   using Config = SidescanConfig;
   static constexpr const char* kComponent = "sidescan";
-  using Report = HeadReport<msg::Ping, msg::BottomTrack, msg::Labels>;
+  using Report = HeadReport<msg::Ping, msg::BottomTrack, msg::Labels, msg::Energies>;
 
   /// What follows from the settings of a ping.
   struct Design {
@@ -41,7 +42,7 @@ class Sidescan {
   /// The configuration outlives the head.
   Sidescan(const Config& config, std::size_t channel);
 
-  HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels> outputs() const;
+  HeadOutputs<msg::Ping, msg::BottomTrack, msg::Labels, msg::Energies> outputs() const;
   SentPing transmit(SimTime now, const HeadSettings& settings, const Surroundings& around) const;
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
@@ -59,6 +60,7 @@ class Sidescan {
     ShotMemory shot;
     ApertureEchoes::Memory beams;
     Labeller::Memory labels;
+    Expectation<ApertureEchoes>::Memory expected;
     BottomFinder::Memory bottom;
   };
   /// What later pings depend on.
@@ -73,6 +75,7 @@ class Sidescan {
   BottomFinder bottom_;
   std::vector<label::Row> label_rows_;
   std::optional<Labeller> labeller_;
+  std::optional<Expectation<ApertureEchoes>> expectation_;
   Memory memory_;
   State state_;
 };

@@ -61,7 +61,7 @@ Received received_by(Sidescan&& head, const SidescanConfig& config, const Sea& s
                      std::int64_t ping = 0) {
   const HeadSettings settings = config.start_of(config.channels[0]);
   auto report = report_of(head, {ping, SimTime{0}, settings.range_m}, settings, around(truth, sea.tiles.scene()));
-  auto& [image, bottom, labels] = report.messages;
+  auto& [image, bottom, labels, energies] = report.messages;
   return {std::move(*image), std::move(*bottom)};
 }
 

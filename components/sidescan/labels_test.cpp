@@ -140,3 +140,38 @@ TEST_CASE("labels are only made when asked for, and leave the ping as it is") {
   CHECK_FALSE(std::get<2>(report.messages));
   CHECK(std::get<0>(report.messages)->amplitude_upa == with.amplitude_upa);
 }
+
+TEST_CASE("what sources of a sidescan send adds up to its ping without speckle") {
+  SidescanConfig config = plain();
+  config.labels = LabelKind::kEnergies;
+  config.effects.multipath = true;
+  config.effects.speckle = config.effects.noise = config.effects.interference = false;
+  const auto report = report_with({box_at(20.0, {1.0, 2.0, 1.0}, 1)}, config);
+  const msg::Ping& ping = std::get<0>(report.messages).value();
+  const msg::Energies& energies = std::get<3>(report.messages).value();
+  std::vector<double> sum(ping.amplitude_upa.size());
+  std::set<std::pair<std::string, std::string>> sources;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < energies.run.rows(); ++i) {
+    const msg::EnergySource& source = energies.sources[static_cast<std::size_t>(energies.run(i, 0))];
+    sources.emplace(source.kind, source.path);
+    if (source.kind == "object") CHECK(energies.run(i, 1) == 1);  // to starboard; its back receives 100 dB less
+    for (std::int64_t k = energies.run(i, 2); k < energies.run(i, 3); ++k)
+      sum[static_cast<std::size_t>(energies.run(i, 1) * energies.samples + k)] +=
+          static_cast<double>(energies.energy_upa2.data()[next++]);
+  }
+  REQUIRE(next == energies.energy_upa2.size());
+  CHECK(sources.contains({"seabed", "direct"}));
+  CHECK(sources.contains({"object", "direct"}));
+  CHECK(sources.contains({"object", "surface"}));
+  double largest = 0.0, worst = 0.0;
+  const auto square = [&](std::size_t k) {
+    const auto amplitude = static_cast<double>(ping.amplitude_upa.data()[k]);
+    return amplitude * amplitude;
+  };
+  for (std::size_t k = 0; k < sum.size(); ++k) largest = std::max(largest, square(k));
+  REQUIRE(largest > 0.0);
+  for (std::size_t k = 0; k < sum.size(); ++k)
+    worst = std::max(worst, std::abs(sum[k] - square(k)) / (1e-4 * square(k) + 1e-6 * largest));
+  CHECK(worst < 1.0);
+}

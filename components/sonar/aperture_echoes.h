@@ -7,6 +7,7 @@
 
 #include "components/sonar/sea_acoustics.h"
 #include "components/sonar/shot_design.h"
+#include "components/sonar/source_energy.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/aperture.h"
 #include "kernels/acoustics/echo/speckle_cells.h"
@@ -29,10 +30,11 @@ struct Apertures {
   double electronic_noise_db = -200.0;                          // as sound in the water, dB re 1 uPa^2/Hz
   double narrowest_rad = 0.01;                                  // half-power width of the narrowest lobe
   Eigen::Vector3f narrow_axis_head = Eigen::Vector3f::UnitX();  // along which it is narrow
-  double nearest_m = 10.0;      // range down to which patches of seabed must be finer than the lobe
-  double resolution_m = 0.075;  // in range
-  std::uint64_t seed = 1;
-  std::string process;  // names the streams of random numbers, with the frequency
+  double nearest_m = 10.0;       // range down to which patches of seabed must be finer than the lobe
+  double resolution_m = 0.075;   // in range
+  std::uint64_t seed = 1;        // of the scene
+  std::uint64_t drawn_seed = 1;  // of speckle and noise
+  std::string process;           // names the streams of random numbers, with the frequency
 };
 
 /// Reception of a shot by apertures.
@@ -59,7 +61,7 @@ class ApertureEchoes {
     echo::Image image;
     // Scratch.
     echo::Image coherent;
-    std::vector<float> gain, foreign_gain, volume_upa2;
+    std::vector<float> gain, coherent_gain, foreign_gain, volume_upa2;
     echo::TimeIndex index;
     echo::RowBackground background;
   };
@@ -69,6 +71,10 @@ class ApertureEchoes {
                                               const Memory& memory) const;
   std::span<const array::Pattern> receive() const { return apertures_.patterns.receive; }
 
+  /// What each source sends, in the order of sources: without speckle only.
+  std::vector<SourceEnergy> energies(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                     const ApertureReception& reception, Memory& memory) const;
+
   /// Third stage of a shot: complex envelopes, aperture by sample, uPa rms. In memory.image.
   const echo::Image& beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                               const ApertureReception& reception, Memory& memory) const;
@@ -76,8 +82,9 @@ class ApertureEchoes {
  private:
   echo::EchoSet weighed(const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
                         const frames::HeadPose& pose, std::vector<float>& gain) const;
-  void add_coherent(const Shot& shot, const Echoed& echoed, const ShotDesign& design, const echo::Sampling& sampling,
-                    Memory& memory) const;
+  echo::EchoSet weighed_coherent(const Shot& shot, const Echoed& echoed, std::vector<float>& gain) const;
+  static void form_mean_squares(std::span<const echo::EchoSet> echoes, std::span<const echo::EchoSet> coherent,
+                                int rows, const ShotDesign& design, const echo::Sampling& sampling, Memory& memory);
   double noise_db(const echo::Pulse& pulse) const;
 
   Apertures apertures_;

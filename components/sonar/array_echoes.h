@@ -11,6 +11,7 @@
 
 #include "components/sonar/sea_acoustics.h"
 #include "components/sonar/shot_design.h"
+#include "components/sonar/source_energy.h"
 #include "kernels/acoustics/array/pattern.h"
 #include "kernels/acoustics/echo/line_receiver.h"
 #include "kernels/acoustics/echo/pulse.h"
@@ -78,11 +79,20 @@ class ArrayEchoes {
   std::vector<float> expected_background_upa2(const echo::Pulse& pulse, const ArrayReception& reception,
                                               const label::MainLobe& lobe, const Memory& memory) const;
 
+  /// What each source sends to the first image, in the order of sources: without speckle only.
+  std::vector<SourceEnergy> energies(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
+                                     const ArrayReception& reception, Memory& memory) const;
+
   /// Third stage of a shot: the images, in memory.images.
   std::span<const echo::Image> beamform(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                                         const ArrayReception& reception, Memory& memory) const;
 
  private:
+  echo::EchoSet weighed(const Shot& shot, const echo::Arrivals& arrivals, const echo::PairedArrivals& paired,
+                        std::vector<float>& gain) const;
+  echo::EchoSet weighed_coherent(const Shot& shot, const Echoed& echoed, std::vector<float>& gain) const;
+  SourceEnergy noise_energy(const echo::Background& noise, const ArrayReception& reception) const;
+  SourceEnergy volume_energy(const echo::Background& noise, const ArrayReception& reception) const;
   echo::Background background(const Shot& shot, const Echoed& echoed, const echo::Pulse& pulse,
                               const ArrayReception& reception, std::vector<float>& volume_upa2) const;
 
@@ -93,6 +103,7 @@ class ArrayEchoes {
   echo::LineReceiver receiver_;
   std::vector<echo::WantedImage> wanted_;
   std::optional<echo::SharedByBeams> shared_;  // without speckle
+  std::optional<array::PatternTable> beam_;    // without speckle: a beam's amplitude by sine off its axis
 };
 
 }  // namespace ensonify

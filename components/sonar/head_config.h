@@ -81,7 +81,8 @@ struct PingTiming {
 /// Labels that a head sends beside its pings.
 enum class LabelKind {
   kNone,
-  kMasks,  // of objects and their shadows
+  kMasks,    // of objects and their shadows
+  kEnergies  // and what each source sends
 };
 
 /// Detail of the seabed that a head's rays see.
@@ -117,6 +118,7 @@ struct HeadParameters {
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it receives
   Effects effects;
+  std::uint64_t speckle_seed = 0;  // 0: the scenario's
   LabelKind labels = LabelKind::kNone;
 
   template <class Self, class Visit>
@@ -141,12 +143,16 @@ struct HeadParameters {
     visit("trigger", "trigger of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);
     visit("effects", "each can be switched off alone; no other random draw moves", self.effects);
+    visit("speckle_seed", "1", any(),
+          "seed of speckle and noise, apart from that of the scene; 0: the scenario's, for both", self.speckle_seed);
   }
   /// Labels of a head that can make them.
   template <class Self, class Visit>
   static void label_kinds(Self& self, Visit&& visit) {
-    visit("labels", "", one_of({{"none", LabelKind::kNone}, {"masks", LabelKind::kMasks}}),
-          "labels/1 beside each ping: masks of objects and of their shadows, boxes, what is visible of each",
+    visit("labels", "",
+          one_of({{"none", LabelKind::kNone}, {"masks", LabelKind::kMasks}, {"energies", LabelKind::kEnergies}}),
+          "labels/1 beside each ping: masks of objects and of their shadows, boxes, what is visible of each; energies: "
+          "energies/1 too, who sends how much of each sample",
           self.labels);
   }
   /// The sound speed of a head that is given one.
@@ -167,6 +173,8 @@ struct HeadPlace {
 
 /// What every head is made from: its parameters, and beside them its place.
 struct HeadConfig : HeadParameters, HeadPlace {
+  /// Of speckle and noise.
+  std::uint64_t drawn_seed() const { return speckle_seed != 0 ? speckle_seed : world->seed; }
   PingTiming timing() const {
     return {rate_of(ping_rate_hz), from_seconds(dead_time_s), from_seconds(processing_latency_s), trigger,
             interference};

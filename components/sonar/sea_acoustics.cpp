@@ -80,7 +80,7 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
     const profile::Span span(profile::Stage::kMerge);
     const echo::Insonification batch{pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2,
                                      memory.backscatter};
-    echo::take_bodies(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, cells.stream(),
+    echo::take_bodies(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, cells.responses(),
                       memory.batch.hits, memory.bodies);
     cells.add(batch, memory.insonified);
   }

@@ -8,6 +8,7 @@ import numpy as np
 
 import ensonify
 from ensonify import labels
+from ensonify.labels import energies
 from ensonify.labels.dataset import Dataset
 from support import SOURCE, SystemTest
 
@@ -29,11 +30,41 @@ class Labels(SystemTest):
             poses = {pose.stamp_ns: pose for _, _, pose in record.messages("auv/pose")}
             objects = {thing.instance: thing for _, _, thing in record.messages("pager/object")}
         self.assertGreater(len(pairs), 3)
-        for ping, of in pairs:
+        for ping, of, _ in pairs:
             self.assertEqual((of.beams, of.samples), ping.amplitude_upa.shape)
             self.check_places(ping, of, poses[ping.stamp_ns], objects)
-        self.check_levels(*pairs[0])
+        self.check_levels(pairs[0].ping, pairs[0].labels)
         self.check_files(result.out, len(pairs))
+
+    def test_energies_of_a_run(self):
+        """The mean of |p|^2 over pings that stand still but for speckle is what was expected; an object's response lies on its mask."""
+        result = self.run_launch(SOURCE / "launch/targets.yaml", "--free", "--set", "processes.eye.config.labels=energies",
+                                 "--set", "processes.recorder.config.topics=[eye/ping, eye/labels, eye/energies]", "--arg", "seconds=3",
+                                 timeout=300)
+        self.assertEqual(result.code, 0, result.stderr)
+        with ensonify.Record(result.out / "targets.mcap") as record:
+            pairs = list(labels.labelled(record, "eye/ping", energies=True))
+        self.assertGreater(len(pairs), 3)
+        ratios = []
+        for ping, of, sent in pairs:
+            expected = energies.total(sent)
+            counts = expected > 0
+            ratios.append((np.square(ping.amplitude_upa, dtype=float)[counts] / expected[counts]).mean())
+            strongest = energies.strongest(sent)
+            places = energies.object_places(sent)
+            for place, thing in enumerate(of.objects):
+                mask = labels.mask(of, place)
+                if thing.visible < 0.5 or mask.sum() < 50:
+                    continue
+                response = energies.response(sent, places[thing.instance])
+                self.assertGreater((response & mask).sum(), 0.4 * mask.sum(), thing.name)
+                self.assertTrue((strongest[response] == places[thing.instance]).all())
+        # Some 10^6 samples of unit exponentials, of which some hundred share a cell's draw.
+        self.assertAlmostEqual(np.mean(ratios), 1.0, delta=0.05)
+        command = [sys.executable, "-m", "ensonify.labels", str(result.out), "-o", str(result.out / "set"), "--mask", "response"]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads(run.stdout)["pictures"], len(pairs))
 
     def check_places(self, ping, of, pose, objects):
         """The middle of what is visible lies in the mask at its range and azimuth, and near the object's own middle."""

@@ -43,6 +43,8 @@ __all__ = [
     "Health",
     "LabelledObject",
     "Labels",
+    "EnergySource",
+    "Energies",
     "Mark",
     "NextLine",
     "Coverage",
@@ -700,6 +702,51 @@ class Labels(Message):
     layer_run: np.ndarray = array("i4")
     shadow_run: np.ndarray = array("i4")
     shadow_db: np.ndarray = array("u1")
+
+
+@dataclass(eq=False)
+class EnergySource(Struct):
+    """Source of sound in a ping.
+
+    kind: kind of source: noise, volume (the water), other heads, surface, seabed or object
+    path: way of the sound: direct, surface (out or back by way of it) or bottom (by way of both)
+    instance [1]: number of the object in the world, from 1; 0: none
+    name: name of the object in the scenario
+    class_name: class of the object
+    class_id [1]: number of the object's class, from 1; 0: no object
+    sediment [1]: sediment class, of the seabed or of what the object scatters as
+    """
+
+    kind: str = ""
+    path: str = ""
+    instance: int = 0
+    name: str = ""
+    class_name: str = ""
+    class_id: int = 0
+    sediment: int = 0
+
+
+@dataclass(eq=False)
+class Energies(Message):
+    """Who sends how much of each sample of a ping, expected over all draws of speckle and noise. Truth.
+
+    stamp_ns [ns]: time of transmission, sim time, as of the ping
+    ping [1]: ping number of this head, as of the ping
+    beams [1]: rows of the image
+    samples [1]: columns of the image
+    sources: sources of sound; the first is noise, and of equals the earlier counts as the stronger
+    run [1]: runs (run x 4) of what sources send: place in sources, beam, first sample, sample after the last. What is less than a millionth of a sample is left out
+    energy_upa2 [uPa^2]: mean square at each sample of the runs, one after the other
+    """
+
+    TYPE = "energies/1"
+    stamp_ns: int = 0
+    ping: int = 0
+    beams: int = 0
+    samples: int = 0
+    sources: list = list_of(EnergySource)
+    run: np.ndarray = array("i4")
+    energy_upa2: np.ndarray = array("f4")
 
 
 @dataclass(eq=False)
@@ -1824,6 +1871,7 @@ TYPES = {cls.TYPE: cls for cls in (
     PagerDeclaration,
     Health,
     Labels,
+    Energies,
     Mark,
     NextLine,
     Coverage,

@@ -12,9 +12,9 @@ from PIL import Image
 
 from ensonify import Labels, Ping, RunError, labels
 from ensonify.labels import __main__ as command
-from ensonify.labels import formats, outlines, pictures
+from ensonify.labels import energies, formats, outlines, pictures
 from ensonify.labels.dataset import Dataset
-from ensonify.messages import LabelledObject
+from ensonify.messages import Energies, EnergySource, LabelledObject
 
 
 def disc(height, width, x, y, radius):
@@ -275,6 +275,36 @@ class Pictures(unittest.TestCase):
         self.assertRegex(said.getvalue(), "is not empty; allowed is")
         self.assertRegex(said.getvalue(), "nowhere.mcap: No such file")
         self.assertRegex(said.getvalue(), "--lines: 0; allowed is 1 or more")
+
+
+def energies_of_two():
+    """Noise everywhere, an object in one beam, another by way of the surface over it: 2 beams x 6 samples."""
+    sources = [EnergySource(kind="noise", path="direct"), EnergySource(kind="object", path="direct", instance=4),
+               EnergySource(kind="object", path="surface", instance=4)]
+    runs = [[0, 0, 0, 6], [0, 1, 0, 6], [1, 0, 1, 4], [2, 0, 3, 5]]
+    energy = [1.0] * 12 + [1.0, 3.0, 0.5] + [1.0, 9.0]
+    return Energies(ping=5, beams=2, samples=6, sources=sources, run=np.array(runs, np.int32), energy_upa2=np.array(energy, np.float32))
+
+
+class EnergiesOfSources(unittest.TestCase):
+    def test_arrays_of_sources(self):
+        of = energies_of_two()
+        np.testing.assert_array_equal(energies.energy(of, 1), [[0, 1, 3, 0.5, 0, 0], [0] * 6])
+        np.testing.assert_array_equal(energies.total(of), [[1, 2, 4, 2.5, 10, 1], [1] * 6])
+        np.testing.assert_array_equal(energies.response(of, 1), [[False, True, True, False, False, False], [False] * 6])
+        # Of equals the earlier: noise before the object, and before its echo by way of the surface.
+        np.testing.assert_array_equal(energies.strongest(of), [[0, 0, 1, 0, 2, 0], [0] * 6])
+        self.assertEqual(energies.object_places(of), {4: 1})
+        self.assertEqual(energies.topic_of("side/ping_main"), "side/energies_main")
+
+    def test_what_does_not_fit_is_refused(self):
+        for change in ({"beams": 1}, {"samples": 5}, {"sources": energies_of_two().sources[:2]},
+                       {"energy_upa2": np.ones(3, np.float32)}, {"run": np.ones((2, 3), np.int32)}):
+            of = energies_of_two()
+            for key, value in change.items():
+                setattr(of, key, value)
+            with self.subTest(change), self.assertRaises(RunError):
+                energies.check(of, "eye/energies")
 
 
 if __name__ == "__main__":

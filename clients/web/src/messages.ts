@@ -434,6 +434,40 @@ export interface Labels {
   shadow_db: Numbers<Uint8Array>;
 }
 
+export interface EnergySource {
+  /** kind of source: noise, volume (the water), other heads, surface, seabed or object */
+  kind: string;
+  /** way of the sound: direct, surface (out or back by way of it) or bottom (by way of both) */
+  path: string;
+  /** number of the object in the world, from 1; 0: none (1) */
+  instance: number;
+  /** name of the object in the scenario */
+  name: string;
+  /** class of the object */
+  class_name: string;
+  /** number of the object's class, from 1; 0: no object (1) */
+  class_id: number;
+  /** sediment class, of the seabed or of what the object scatters as (1) */
+  sediment: number;
+}
+
+export interface Energies {
+  /** time of transmission, sim time, as of the ping (ns) */
+  stamp_ns: number;
+  /** ping number of this head, as of the ping (1) */
+  ping: number;
+  /** rows of the image (1) */
+  beams: number;
+  /** columns of the image (1) */
+  samples: number;
+  /** sources of sound; the first is noise, and of equals the earlier counts as the stronger */
+  sources: EnergySource[];
+  /** runs (run x 4) of what sources send: place in sources, beam, first sample, sample after the last. What is less than a millionth of a sample is left out (1) */
+  run: Numbers<Int32Array>;
+  /** mean square at each sample of the runs, one after the other (uPa^2) */
+  energy_upa2: Numbers<Float32Array>;
+}
+
 export interface Mark {
   /** time of the mark, sim time (ns) */
   stamp_ns: number;
@@ -1326,6 +1360,7 @@ export const TYPES: Record<string, string> = {
   "ec8cf9630d43fc33": "pager_declaration/1",
   "8c49360ea9bfbb63": "health/1",
   "bf62e1bec5141cea": "labels/1",
+  "a8402b03970e13d9": "energies/1",
   "eed8742b161e86c4": "mark/1",
   "197d1d884c88a73b": "next_line/1",
   "c13186a044162017": "coverage/1",

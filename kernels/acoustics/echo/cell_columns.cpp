@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "kernels/base/fast_math/fast_math.h"
 
@@ -104,7 +105,7 @@ struct Bits {
 
 }  // namespace
 
-void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
+void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
                    std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first) {
   const std::size_t count = rays.size();
   const Gathered hit(batch, rays);
@@ -117,7 +118,11 @@ void find_geometry(const Insonification& batch, double cell_m, const random::Str
     up[i] = std::floor(hit.z[i] * per_cell + shift_z);
   }
   for (std::size_t i = 0; i < count; ++i) cell[i] = cell_at(east[i], north[i], up[i]);
-  const Bits bits(stream, std::span(cell).first(count));
+  const std::span some = std::span(cell).first(count);
+  const Bits bits(streams.places, some);
+  std::optional<Bits> others;
+  if (streams.speckle) others.emplace(*streams.speckle, some);
+  const Bits& drawn = others ? *others : bits;
   // Somewhere in the cell, then down to the facet.
   const auto somewhere = [=](double steps, double shift, std::uint32_t inside) {
     return cell_m * (steps + 0x1p-16 * static_cast<std::int32_t>(inside) - shift);
@@ -153,9 +158,9 @@ void find_geometry(const Insonification& batch, double cell_m, const random::Str
   // A complex Gaussian of mean square 1 (Box and Muller [BoxMuller1958]).
   float *const re = found.response_re.data() + first, *const im = found.response_im.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
-    const float u = (static_cast<float>(static_cast<std::int32_t>(bits.word[0][i] >> 8)) + 0.5F) * 0x1p-24F;
+    const float u = (static_cast<float>(static_cast<std::int32_t>(drawn.word[0][i] >> 8)) + 0.5F) * 0x1p-24F;
     const float radius = std::sqrt(-fast_math::log(u));
-    const fast_math::Direction direction = fast_math::direction_of(bits.word[1][i]);
+    const fast_math::Direction direction = fast_math::direction_of(drawn.word[1][i]);
     re[i] = radius * direction.cosine;
     im[i] = radius * direction.sine;
   }

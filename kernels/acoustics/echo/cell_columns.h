@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/trace/ray.h"
@@ -42,10 +44,25 @@ void find_cells(const trace::Hits& hits, double cell_m, std::size_t first, std::
 /// Parts of rays first..first + hits.size() - 1, kCellRun at most.
 void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits);
 
+/// Random numbers of cells, by their number: where the scatterer is in its cell, and its response.
+struct CellStreams {
+  CellStreams(std::uint64_t seed, std::string_view name) : places(seed, name) {}
+  /// Responses of a seed of their own.
+  CellStreams(std::uint64_t seed, std::string_view name, std::uint64_t speckle_seed) : CellStreams(seed, name) {
+    if (speckle_seed != seed) speckle.emplace(speckle_seed, name);
+  }
+  explicit CellStreams(const random::Stream& both) : places(both) {}
+
+  random::Stream places;
+  std::optional<random::Stream> speckle;  // of responses; nothing: as of places
+
+  const random::Stream& responses() const { return speckle ? *speckle : places; }
+};
+
 /// Where the scatterers of cells are and what is known of them before energies are summed, into rows first.. of
-/// `found`: one for each of these rays, kCellRun at most, that hit something. Position and response depend on (stream,
-/// cell) and on the facet.
-void find_geometry(const Insonification& batch, double cell_m, const random::Stream& stream,
+/// `found`: one for each of these rays, kCellRun at most, that hit something. The position depends on (places, cell)
+/// and on the facet, the response on (responses, cell).
+void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
                    std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first);
 
 }  // namespace ensonify::echo

@@ -95,7 +95,7 @@ TEST_CASE("a scatterer's position and response are those of its cell's bits, one
   constexpr std::size_t kBefore = 7;  // rows that others have
   Scatterers all;
   all.resize(kBefore + rays.size());
-  find_geometry(some.all(), cell_m, stream, rays, all, kBefore);
+  find_geometry(some.all(), cell_m, CellStreams(stream), rays, all, kBefore);
   for (std::size_t i = 0; i < kBefore; ++i) REQUIRE(all.slowness_spm[i] == 0.0F);
   const Vec3 shift(0.3819660113, 0.6180339887, 0.2360679775);
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -20,7 +20,7 @@ void tvg_db(const TvgLaw& law, const Sampling& sampling, std::vector<float>& gai
   require(law.step_db >= 0.0, "a gain law's step must not be negative");
   gain_db.resize(static_cast<std::size_t>(std::max(sampling.count, 0)));
   for (std::size_t k = 0; k < gain_db.size(); ++k) {
-    const double time_s = sampling.start_s + static_cast<double>(k) * sampling.period_s;
+    const double time_s = sampling.time_s(static_cast<int>(k));
     const double R = std::clamp(0.5 * law.sound_speed_mps * time_s, law.start_range_m, law.stop_range_m);
     const double wanted = law.spreading_db * std::log10(R) + 2.0 * law.absorption_dbpm * R +
                           law.slope_db_per_100m * 0.01 * R + law.offset_db;

@@ -12,7 +12,8 @@ void find_first(const GridPoints& of, const EchoSet& set, std::size_t begin, std
   const double* const time_s = set.arrivals.time_s.data();
   const double start_s = of.sampling.start_s, period_s = of.sampling.period_s;
   const SampledPulse::Grid samples = of.pulse.grid();
-  for (std::size_t i = begin; i < end; ++i) first[i - begin] = samples.at((time_s[i] - start_s) / period_s).first;
+  for (std::size_t i = begin; i < end; ++i)
+    first[i - begin] = samples.at((time_s[i] - start_s) / period_s).first - of.sampling.first;
   if (of.whose.all()) return;
   for (std::size_t i = begin; i < end; ++i) {
     if (!of.whose.holds(set.arrivals.contributor[i])) first[i - begin] = of.sampling.count;

@@ -8,11 +8,14 @@
 
 namespace ensonify::echo {
 
-/// Sampling of a receiver: sample k is taken at start_s + k * period_s after the start of transmission.
+/// Sampling of a receiver: sample k is taken at start_s + (first + k) * period_s after the start of transmission.
 struct Sampling {
   double start_s = 0.0;
   double period_s = 50e-6;  // Pulse says how long it may be
   int count = 0;
+  int first = 0;  // of a window: a part of an image is formed bit by bit as the whole
+
+  double time_s(int k) const { return start_s + (first + k) * period_s; }
 };
 
 /// Complex envelope, beam by sample: the square of the magnitude is mean-square pressure at the receiver, uPa^2, as the

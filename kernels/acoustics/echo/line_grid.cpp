@@ -9,6 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kernels/acoustics/array/line.h"
 #include "kernels/acoustics/trace/batch.h"
 #include "kernels/base/profile/profile.h"
 
@@ -68,6 +69,18 @@ double LineGrid::share_of_sphere(int cell) const {
     covered += std::max(0.0, std::min(1.0, middle + 0.5 * width) - std::max(-1.0, middle - 0.5 * width));
   }
   return 0.5 * covered;
+}
+
+double LineGrid::isotropic_power(std::span<const float> power_weights, double sin_beam) const {
+  const std::size_t middle = power_weights.size() / 2;
+  double power = power_weights[middle];
+  if (white_) return power;
+  for (std::size_t lag = 1; lag <= middle; ++lag) {
+    const double turns = line_.spacing_in_waves * static_cast<double>(lag);
+    power += 2.0 * static_cast<double>(power_weights[middle + lag]) * array::sinc(2.0 * turns) *
+             std::cos(2.0 * std::numbers::pi * turns * sin_beam);
+  }
+  return std::max(0.0, power);
 }
 
 bool LineGrid::hears_electronic(const Background& background) {

@@ -65,6 +65,8 @@ class LineGrid {
   /// -0.5/spacing..0.5/spacing).
   int cells() const { return cells_; }
   double cell_sine(int cell) const;
+  /// Mean square of the isotropic noise in a beam, over that at one element; of the autocorrelation of its weights.
+  double isotropic_power(std::span<const float> power_weights, double sin_beam) const;
 
   /// Input of one ping. Spans are not owned.
   struct Input {

@@ -48,6 +48,10 @@ class LineReceiver {
   /// Cells of the sine grid, for Background::volume_upa2, and the sine at the middle of one.
   int cells() const { return pressure_.cells(); }
   double cell_sine(int cell) const { return pressure_.cell_sine(cell); }
+  /// Mean square of isotropic noise in an image of mean squares, at a beam, over that at one element.
+  double isotropic_power(const WantedImage& image, double sin_beam) const {
+    return pressure_.isotropic_power(image.power_weights, sin_beam);
+  }
 
   /// Input of one ping. Spans are not owned.
   struct Input {

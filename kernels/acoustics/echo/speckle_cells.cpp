@@ -45,7 +45,7 @@ void SpeckleCells::Accumulator::clear() {
   found_.make_room(size + size / 8);
 }
 
-SpeckleCells::SpeckleCells(double cell_m, const random::Stream& stream) : cell_m_(cell_m), stream_(stream) {
+SpeckleCells::SpeckleCells(double cell_m, const CellStreams& streams) : cell_m_(cell_m), streams_(streams) {
   if (!(cell_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
 }
 
@@ -123,7 +123,7 @@ void SpeckleCells::find_new(const Insonification& batch, Accumulator& sum) const
   tbb::parallel_for(std::size_t{0}, (count + kCellRun - 1) / kCellRun, [&](std::size_t run) {
     const std::size_t first = run * kCellRun;
     const auto rays = std::span(makers).subspan(first, std::min(kCellRun, count - first));
-    find_geometry(batch, cell_m_, stream_, rays, sum.found_, before + first);
+    find_geometry(batch, cell_m_, streams_, rays, sum.found_, before + first);
   });
 }
 

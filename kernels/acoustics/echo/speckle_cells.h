@@ -15,7 +15,7 @@ namespace ensonify::echo {
 /// From hits to scatterers.
 ///
 /// The world is cut into cubic cells of `cell_m`. All rays that hit one cell add their energy to one scatterer. Its
-/// place (in the cell, on the facet) and its response depend on (stream, cell) only. So a ping repeated from the same
+/// place (in the cell, on the facet) and its response depend on (a stream, cell) only. So a ping repeated from the same
 /// pose with the same rays repeats bit by bit, and when the head moves, the same scatterers answer with other travel
 /// times: the sum decorrelates by these, as a real seabed's does. That needs some four rays per cell; with fewer, the
 /// scatterers that a ping finds change from ping to ping and it decorrelates sooner. Energy is right in any case.
@@ -63,7 +63,7 @@ class SpeckleCells {
   };
 
   /// Throws std::invalid_argument unless cell_m > 0.
-  SpeckleCells(double cell_m, const random::Stream& stream);
+  SpeckleCells(double cell_m, const CellStreams& streams);
 
   /// Adds what rays insonify. Sums are in the order of rays, whatever the batches: the same bits.
   ///
@@ -78,7 +78,7 @@ class SpeckleCells {
   static const Scatterers& gather(Accumulator& sum, const Scatterers& more = {});
 
   double cell_m() const { return cell_m_; }
-  const random::Stream& stream() const { return stream_; }
+  const random::Stream& responses() const { return streams_.responses(); }
 
  private:
   static void merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes);
@@ -88,7 +88,7 @@ class SpeckleCells {
   static void take_energies(const Bucket& bucket, Scatterers& found);
 
   double cell_m_;
-  random::Stream stream_;
+  CellStreams streams_;
 };
 
 }  // namespace ensonify::echo

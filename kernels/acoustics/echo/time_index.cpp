@@ -8,8 +8,8 @@ void TimeIndex::set(std::span<const EchoSet> echoes, const SampledPulse& pulse, 
       const double* const time_s = echoes[number].arrivals.time_s.data();
       for (std::size_t i = first; i < last; ++i) {
         const auto at = pulse.place((time_s[i] - sampling.start_s) / sampling.period_s);
-        add(row++, Received{at.first, static_cast<std::uint16_t>(at.phase), static_cast<std::uint16_t>(number),
-                            static_cast<std::uint32_t>(i)});
+        add(row++, Received{at.first - sampling.first, static_cast<std::uint16_t>(at.phase),
+                            static_cast<std::uint16_t>(number), static_cast<std::uint32_t>(i)});
       }
     });
   };

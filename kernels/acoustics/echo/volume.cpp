@@ -105,7 +105,7 @@ void reverberation_upa2(double source_level_db, double absorption_dbpm, double s
   const double middle_s = 0.5 * (pulse.start_s + pulse.end_s());
   mean_square_upa2.resize(static_cast<std::size_t>(sampling.count) * channels.size());
   tbb::parallel_for(0, sampling.count, [&](int sample) {
-    const double time_s = sampling.start_s + sample * sampling.period_s - middle_s;
+    const double time_s = sampling.time_s(sample) - middle_s;
     const double R = 0.5 * sound_speed_mps * time_s;
     float* out = mean_square_upa2.data() + static_cast<std::size_t>(sample) * channels.size();
     if (R < 0.25 * sound_speed_mps * tau) {

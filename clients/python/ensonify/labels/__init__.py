@@ -1,23 +1,26 @@
 """Labels of pings: which sample of an image belongs to which object, and which lies in its shadow.
 
-A head with `labels: masks` publishes labels/1 beside each ping. Here they become arrays; `python -m ensonify.labels` writes
+A head with `labels: masks` publishes labels/1 beside each ping, one with `labels: energies` also energies/1
+(ensonify.labels.energies). Here they become arrays; `python -m ensonify.labels` writes
 them as COCO, YOLO, Pascal VOC, PNG masks or WebDataset shards.
 """
 from typing import Iterator, NamedTuple
 
 import numpy as np
 
-from ensonify.messages import Labels, Ping
+from ensonify.labels import energies as energies_of
+from ensonify.messages import Energies, Labels, Ping
 from ensonify.session import EXIT_BAD_INPUT, RunError
 
 SEABED = -1  # whose shadow it is, of the seabed's own
 
 
 class Labelled(NamedTuple):
-    """A ping and its labels."""
+    """A ping and its labels; its energies where they were asked for."""
 
     ping: Ping
     labels: Labels
+    energies: Energies | None = None
 
 
 def labels_topic(ping_topic: str) -> str:
@@ -32,23 +35,27 @@ def ping_topics(record) -> list:
     return [topic for topic in record.topics_of(Ping) if labels_topic(topic) in topics]
 
 
-def labelled(record, topic: str) -> Iterator[Labelled]:
-    """Pings of a topic with their labels, in their order. Raises RunError where the record has no labels for it."""
-    beside = labels_topic(topic)
+def labelled(record, topic: str, energies: bool = False) -> Iterator[Labelled]:
+    """Pings of a topic with their labels, in their order, and with their energies if these are asked for. Raises RunError where
+    the record has none for it."""
+    beside, sent = labels_topic(topic), energies_of.topic_of(topic)
     if beside not in record.topics():
         known = ", ".join(ping_topics(record)) or "none: a head makes labels with `labels: masks`"
         raise RunError(f"{record.file}: has no {beside}; labelled are {known}", EXIT_BAD_INPUT)
-    waiting: dict = {}  # by ping number
-    for message in record.messages(topic, beside):
+    if energies and sent not in record.topics():
+        raise RunError(f"{record.file}: has no {sent}; a head makes it with `labels: energies`", EXIT_BAD_INPUT)
+    waiting: dict = {}  # by ping number, then by type
+    for message in record.messages(topic, beside, *([sent] if energies else [])):
         content = message.content
-        other = waiting.pop(content.ping, None)
-        if other is None:
-            waiting[content.ping] = content
+        parts = waiting.setdefault(content.ping, {})
+        parts[type(content)] = content
+        if len(parts) < (3 if energies else 2):
             continue
-        waiting.clear()  # both come in order: what waits has lost its other half
-        ping, labels = (content, other) if isinstance(other, Labels) else (other, content)
-        check(labels, beside)
-        yield Labelled(ping, labels)
+        waiting.clear()  # all come in order: what waits has lost a part
+        check(parts[Labels], beside)
+        if energies:
+            energies_of.check(parts[Energies], sent)
+        yield Labelled(parts[Ping], parts[Labels], parts.get(Energies))
 
 
 def check(labels: Labels, topic: str) -> None:

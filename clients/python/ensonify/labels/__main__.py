@@ -16,6 +16,8 @@ def parser() -> argparse.ArgumentParser:
                     help="one or several of masks, coco, yolo, voc, webdataset (default: coco)")
     of.add_argument("--yolo", default="detect", choices=["detect", "segment", "oriented"], help="form of yolo's lines")
     of.add_argument("--box", default="object", choices=["object", "object+shadow", "shadow"], help="what a box goes round")
+    of.add_argument("--mask", default="geometry", choices=["geometry", "response"],
+                    help="cells that an object covers, or samples of which it sends at least half (needs `labels: energies`)")
     of.add_argument("--topic", nargs="*", help="topics of pings; all that are labelled if left out")
     of.add_argument("--view", default="polar", choices=["polar", "cartesian"], help="of imaging heads: sample by beam, or a fan")
     of.add_argument("--lines", type=int, default=256, help="lines of a sidescan in a picture (default: 256)")
@@ -60,7 +62,7 @@ def export(args: argparse.Namespace) -> dict:
             writers.append(formats.WRITERS[name](folder, args.box, **form))
         display = pictures.Display(args.white_db, args.range_db)
         for topic in topics:
-            shown = pictures.pictures(record, topic, view=args.view, lines=args.lines, display=display)
+            shown = pictures.pictures(record, topic, view=args.view, lines=args.lines, display=display, mask=args.mask)
             for number, picture in enumerate(shown):
                 if number % args.every:
                     continue

@@ -8,6 +8,7 @@ from typing import Iterator
 import numpy as np
 
 from ensonify import labels as of
+from ensonify.labels import energies
 from ensonify.messages import Ping
 
 
@@ -68,7 +69,23 @@ def _numbers(amplitude: np.ndarray, source_level_db: float, display: Display) ->
 _FACTS = ("inside", "visible", "occluded", "buried", "hit_enu_m", "range_m", "grazing_rad", "aspect_rad", "sediment", "smooth")
 
 
-def _things(pairs: list, arrange) -> list:
+def _response(pair: of.Labelled, instance: int) -> np.ndarray:
+    """Samples of which an object sends at least half."""
+    place = energies.object_places(pair.energies).get(instance)
+    return np.zeros((pair.labels.beams, pair.labels.samples), bool) if place is None else energies.response(pair.energies, place)
+
+
+def _layer(pair: of.Labelled, response: bool) -> np.ndarray:
+    """One mask of all."""
+    if not response:
+        return of.layer(pair.labels)
+    cells = np.zeros((pair.labels.beams, pair.labels.samples), np.int32)
+    for instance, place in energies.object_places(pair.energies).items():
+        cells[energies.response(pair.energies, place)] = instance
+    return cells
+
+
+def _things(pairs: list, arrange, response: bool) -> list:
     """Objects of one or several pings; arrange(one array per ping, beams x samples) makes a picture of them."""
     seen: dict = {}  # by instance: (object that is seen best, places by ping)
     for number, pair in enumerate(pairs):
@@ -83,14 +100,15 @@ def _things(pairs: list, arrange) -> list:
         def arranged(cells):
             return arrange([cells(pair.labels, places.get(number, none)) for number, pair in enumerate(pairs)])
 
-        thing = Thing(instance, best.name, best.class_name, best.class_id, arranged(of.mask), arranged(of.shadow),
+        mask = arrange([_response(pair, instance) for pair in pairs]) if response else arranged(of.mask)
+        thing = Thing(instance, best.name, best.class_name, best.class_id, mask, arranged(of.shadow),
                       {fact: getattr(best, fact) for fact in _FACTS})
         if thing.mask.any() or thing.shadow.any():
             things.append(thing)
     return things
 
 
-def _picture(name: str, pairs: list, arrange, display: Display, facts: dict) -> Picture:
+def _picture(name: str, pairs: list, arrange, display: Display, facts: dict, response: bool) -> Picture:
     ping = pairs[0].ping
     amplitude = arrange([amplitude_with_gain(pair.ping) for pair in pairs])
     grey, linear, scale_upa = _numbers(amplitude, ping.source_level_db, display)
@@ -98,8 +116,9 @@ def _picture(name: str, pairs: list, arrange, display: Display, facts: dict) -> 
              "sample_period_s": ping.sample_period_s, "sound_speed_mps": ping.sound_speed_mps, "range_m": ping.range_m,
              "frequency_hz": ping.frequency_hz, "source_level_db": ping.source_level_db, "scale_upa": scale_upa,
              "gain_spreading_db": ping.gain_spreading_db, "gain_absorption_dbpm": ping.gain_absorption_dbpm,
-             "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db}
-    return Picture(name, grey, linear, scale_upa, _things(pairs, arrange), arrange([of.layer(pair.labels) for pair in pairs]),
+             "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db,
+             "mask": "response" if response else "geometry"}
+    return Picture(name, grey, linear, scale_upa, _things(pairs, arrange, response), arrange([_layer(pair, response) for pair in pairs]),
                    arrange([of.shadow(pair.labels, of.SEABED) for pair in pairs]), facts)
 
 
@@ -138,25 +157,28 @@ def _waterfall(cells: list) -> np.ndarray:
     return np.stack([np.concatenate([line[0][::-1], line[1]]) for line in cells])
 
 
-def pictures(record, topic: str, *, view: str = "polar", lines: int = 256, display: Display = Display()) -> Iterator[Picture]:
+def pictures(record, topic: str, *, view: str = "polar", lines: int = 256, display: Display = Display(),
+             mask: str = "geometry") -> Iterator[Picture]:
     """Labelled pictures of a topic's pings: one for each ping, of a sidescan one for so many lines (a shorter last one too).
 
     view: polar, sample by beam, port left and the farthest on top; or cartesian, a fan 512 pixels high, made of the nearest
-    samples, masks like levels. Of a sidescan the view is the waterfall in slant range."""
+    samples, masks like levels. Of a sidescan the view is the waterfall in slant range.
+    mask: geometry, or response: the samples of which an object sends at least half, which needs `labels: energies`."""
     stem = topic.replace("/", "_")
     facts = {"topic": topic, "record": record.file.rsplit("/", 1)[-1], "seed": record.info.get("seed", "")}
     held: list = []
+    response = mask == "response"
 
     def waterfall():
-        picture = _picture(f"{stem}_{held[0].ping.ping:06d}", held, _waterfall, display, facts)
+        picture = _picture(f"{stem}_{held[0].ping.ping:06d}", held, _waterfall, display, facts, response)
         held.clear()
         return picture
 
-    for pair in of.labelled(record, topic):
+    for pair in of.labelled(record, topic, energies=response):
         ping = pair.ping
         if ping.kind != "sidescan":
             arrange = _fan(ping) if view == "cartesian" else _upright(ping)
-            yield _picture(f"{stem}_{ping.ping:06d}", [pair], arrange, display, {**facts, "view": view})
+            yield _picture(f"{stem}_{ping.ping:06d}", [pair], arrange, display, {**facts, "view": view}, response)
             continue
         if held and (held[0].labels.samples != pair.labels.samples or len(held) == lines):
             yield waterfall()
