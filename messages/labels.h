@@ -101,7 +101,10 @@ struct EnergySource {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("kind", "", "kind of source: noise, volume (the water), other heads, surface, seabed or object", self.kind);
+    visit(
+        "kind", "",
+        "kind of source: noise, volume (the water), interference (other heads and sectors), surface, seabed or object",
+        self.kind);
     visit("path", "", "way of the sound: direct, surface (out or back by way of it) or bottom (by way of both)",
           self.path);
     visit("instance", "1", "number of the object in the world, from 1; 0: none", self.instance);
@@ -120,6 +123,8 @@ struct Energies {
   std::int64_t ping = 0;
   std::int64_t beams = 0;
   std::int64_t samples = 0;
+  double first_sample_s = 0.0;
+  double sample_period_s = 0.0;
   std::vector<EnergySource> sources;
   Array<std::int32_t> run;
   Array<float> energy_upa2;
@@ -130,6 +135,8 @@ struct Energies {
     visit("ping", "1", "ping number of this head, as of the ping", self.ping);
     visit("beams", "1", "rows of the image", self.beams);
     visit("samples", "1", "columns of the image", self.samples);
+    visit("first_sample_s", "s", "time of the first sample after transmission, as of the ping", self.first_sample_s);
+    visit("sample_period_s", "s", "time between samples", self.sample_period_s);
     visit("sources", "", "sources of sound; the first is noise, and of equals the earlier counts as the stronger",
           self.sources);
     visit("run", "1",

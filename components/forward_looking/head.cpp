@@ -224,7 +224,7 @@ ForwardLooking::Report ForwardLooking::ping(const PingEvent& event, const SentPi
     const auto receive = [&](const echo::Arrivals& of_others) {
       return ArrayReception{event.number(), sampling, memory_.sin_beams, volume_directions_, of_others};
     };
-    energies = expectation_->of({event, config_.beams, sampling.count}, shot, mesh, insonified, design.shot, receive,
+    energies = expectation_->of({event, config_.beams, sampling}, shot, mesh, insonified, design.shot, receive,
                                 memory_.expected);
   }
 

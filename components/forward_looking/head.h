@@ -6,7 +6,7 @@
 
 #include "components/forward_looking/config.h"
 #include "components/sonar/array_echoes.h"
-#include "components/sonar/expectation.h"
+#include "components/sonar/expected_echoes.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -82,7 +82,7 @@ class ForwardLooking {
     std::vector<float> sin_beams;
     ArrayEchoes::Memory beams;
     Labeller::Memory labels;
-    Expectation<ArrayEchoes>::Memory expected;
+    ExpectedEchoes<ArrayEchoes>::Memory expected;
   };
 
   const Config& config_;
@@ -93,7 +93,7 @@ class ForwardLooking {
   std::vector<echo::VolumeDirections> volume_directions_;  // empty: the water does not scatter
   LabelView label_view_;
   std::optional<Labeller> labeller_;
-  std::optional<Expectation<ArrayEchoes>> expectation_;
+  std::optional<ExpectedEchoes<ArrayEchoes>> expectation_;
   Memory memory_;
 };
 

@@ -234,6 +234,7 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
   static void parameters(Self& self, Visit&& visit) {
     MultibeamParameters::parameters(self, visit);
     HeadParameters::parameters(self, visit);
+    energy_labels(self, visit);
   }
   static MultibeamConfig read(ConfigReader& from, const World& world, const std::string& process);
 

@@ -72,16 +72,19 @@ Multibeam::Multibeam(const Config& config, std::size_t)
     const double frequency_hz = arrays_.sectors[i].frequency_hz;
     auto& environment = environments[frequency_hz];
     if (!environment) environment = std::make_shared<const Environment>(*config.world, frequency_hz);
-    sectors_.emplace_back(config, arrays_, i, environment);
+    sectors_.emplace_back(config, config.effects, arrays_, i, environment);
+    if (config.labels == LabelKind::kEnergies)
+      expectations_.emplace_back(config, without_speckle(config.effects), arrays_, i, environment);
   }
 }
 
-HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage> Multibeam::outputs() const {
+HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage, msg::Energies> Multibeam::outputs() const {
   const std::size_t image_bytes = snippet_bytes(config_);
   return {{"ping", ping_bytes(config_)},
           {"soundings", soundings_bytes(config_)},
           {"snippets", image_bytes, config_.snippets},
-          {"seabed_image", image_bytes, config_.image.published}};
+          {"seabed_image", image_bytes, config_.image.published},
+          {"energies", kEnergySources * ping_bytes(config_), config_.labels == LabelKind::kEnergies}};
 }
 
 void Multibeam::connect(Ports& ports) {
@@ -165,7 +168,26 @@ Multibeam::Report Multibeam::ping(const PingEvent& event, const Sent& sent, cons
   if (report.trouble.empty() && !around.estimate.empty() && placed.bottoms.empty())
     report.trouble = "no beam detects the seabed";
   std::get<1>(report.messages) = std::move(placed.soundings);
+  if (!expectations_.empty()) std::get<4>(report.messages) = energies_of(event, settings, steering, transmissions);
   return report;
+}
+
+msg::Energies Multibeam::energies_of(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                                     std::span<const Sector::Sent> sent) {
+  memory_.expected.resize(sectors_.size());
+  memory_.expected_echoed.clear();
+  for (std::size_t i = 0; i < sectors_.size(); ++i)
+    memory_.expected_echoed.push_back(expectations_[i].echoes(sent[i], memory_.expected[i]));
+  std::vector<EnergyRows> parts;
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    const SteeredSector& sector = steering.sectors[i];
+    parts.push_back({sector.first_beam, sector.beams, sent[i].mesh,
+                     expectations_[i].energies(event, settings, sent, memory_.expected_echoed,
+                                               memory_.sectors[i].sin_beams, memory_.expected[i])});
+  }
+  const auto beams = static_cast<std::int64_t>(steering.sin_beams.size());
+  const echo::Sampling sampling{0.0, sent.front().sampling.period_s, sent.front().sampling.count};
+  return energies_message({event, beams, sampling}, parts);
 }
 
 std::span<const Sector::Sent> Multibeam::insonify(const PingEvent& event, const HeadSettings& settings,

@@ -13,6 +13,7 @@
 #include "components/multibeam/soundings.h"
 #include "components/multibeam/steering.h"
 #include "components/sonar/auto_range.h"
+#include "components/sonar/expected_echoes.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/shot_design.h"
 #include "messages/navigation.h"
@@ -25,7 +26,7 @@ class Multibeam {
  public:
   using Config = MultibeamConfig;
   static constexpr const char* kComponent = "multibeam";
-  using Report = HeadReport<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage>;
+  using Report = HeadReport<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage, msg::Energies>;
   struct Sent {
     std::vector<Transmission> sectors;
     Steering steering;
@@ -48,7 +49,7 @@ class Multibeam {
   Multibeam(const Multibeam&) = delete;
   Multibeam& operator=(const Multibeam&) = delete;
 
-  HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage> outputs() const;
+  HeadOutputs<msg::Ping, msg::Soundings, msg::Snippets, msg::SeabedImage, msg::Energies> outputs() const;
   void connect(Ports& ports);
   Sent transmit(SimTime now, HeadSettings settings, const Surroundings& around);
   Design prepare(const HeadSettings& settings) const;
@@ -64,6 +65,9 @@ class Multibeam {
     std::shared_ptr<std::vector<float>> amplitude_upa;  // of all beams; a new one while messages still hold the last
     Detector::Memory detection;
     SoundingMaker::Memory soundings;
+    // Of energies.
+    std::vector<Sector::Memory> expected;
+    std::vector<Echoed> expected_echoed;
   };
 
   /// The first three stages of a ping, sector by sector; together a function of event, settings, steering, poses and
@@ -80,6 +84,8 @@ class Multibeam {
  private:
   void follow_range(const HeadSettings& settings);
   SteeringInputs steering_inputs(SimTime now, const Surroundings& around) const;
+  msg::Energies energies_of(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                            std::span<const Sector::Sent> sent);
   void add_images(const Sent& sent, const Placed& placed, std::span<const SectorBeams> beams, Report& report) const;
 
   /// What later pings depend on.
@@ -94,6 +100,7 @@ class Multibeam {
   const Config& config_;
   ArrayDesign arrays_;
   std::deque<Sector> sectors_;
+  std::deque<Sector> expectations_;  // the same without speckle, where energies are asked for
   refraction::SoundSpeedProfile applied_;
   Detector detector_;
   SoundingMaker soundings_;

@@ -54,13 +54,13 @@ std::vector<std::vector<float>> weights_of(const ReceiveLine& line, bool halves)
   return weights;
 }
 
-ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, std::size_t sector,
-                      const SectorPattern& pattern) {
+ReceiveArray array_of(const MultibeamConfig& config, const Effects& effects, const ArrayDesign& design,
+                      std::size_t sector, const SectorPattern& pattern) {
   const double true_mps = true_profile(*config.world).speed_mps(config.world->mission.depth_m);
   ReceiveArray array;
   array.frequency_hz = design.sectors[sector].frequency_hz;
   array.elements = echo::element_line(design.receive.whole, true_mps / array.frequency_hz);
-  array.weights = weights_of(design.receive, config.effects.speckle);
+  array.weights = weights_of(design.receive, effects.speckle);
   array.element = pattern.element();
   array.noise_share = pattern.noise_share();
   array.electronic_noise_db = config.electronic_noise_db;
@@ -72,13 +72,13 @@ ReceiveArray array_of(const MultibeamConfig& config, const ArrayDesign& design, 
 
 }  // namespace
 
-Sector::Sector(const MultibeamConfig& config, const ArrayDesign& arrays, std::size_t number,
+Sector::Sector(const MultibeamConfig& config, const Effects& effects, const ArrayDesign& arrays, std::size_t number,
                std::shared_ptr<const Environment> environment)
     : config_(config),
       arrays_(arrays),
       number_(number),
       pattern_(config, arrays, number),
-      echoes_(array_of(config, arrays, number, pattern_), std::move(environment), config.effects, config.quality) {}
+      echoes_(array_of(config, effects, arrays, number, pattern_), std::move(environment), effects, config.quality) {}
 
 Sector::Design Sector::prepare(const HeadSettings& settings) const {
   const double resolution_m = range_resolution_m(config_, settings.pulse_length_s), swath_rad = settings.swath_rad;
@@ -124,18 +124,21 @@ Sector::Sent Sector::insonify(const PingEvent& event, const HeadSettings& settin
   const SeaAcoustics& sea = echoes_.sea();
   const double reach_m = 0.5 * sea.sound_speed_mps(shot.pose()) * window_s;
   const trace::Mesh mesh = sea.mesh(shot, around.seabed, design.shot.rays, reach_m);
-  return {shot, sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, reach_m, memory.shot), sampling, design};
+  return {shot, mesh, sea.insonify(shot, mesh, design.shot.rays, design.shot.cells, reach_m, memory.shot), sampling,
+          design};
 }
 
 Echoed Sector::echoes(const Sent& sent, Memory& memory) const {
   return echoes_.sea().echoes(sent.shot, sent.insonified, memory.shot);
 }
 
-SectorBeams Sector::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> sent,
-                             std::span<const Echoed> echoed, std::span<float> amplitude_upa, Memory& memory) const {
-  const auto& [shot, insonified, sampling, design] = sent[number_];
+/// Of other sectors, which sent a little earlier or later, and of other heads.
+const echo::Arrivals& Sector::foreign_echoes(const PingEvent& event, const HeadSettings& settings,
+                                             std::span<const Sent> sent, std::span<const Echoed> echoed,
+                                             Memory& memory) const {
+  const Shot& shot = sent[number_].shot;
+  const echo::Pulse& pulse = sent[number_].design.shot.pulse;
   const double delay_s = arrays_.sectors[number_].delay_s;
-  const echo::Pulse& pulse = design.shot.pulse;
   echo::Arrivals& foreign = memory.shot.foreign;
   foreign.clear();
   for (std::size_t i = 0; i < sent.size(); ++i) {
@@ -151,6 +154,14 @@ SectorBeams Sector::beamform(const PingEvent& event, const HeadSettings& setting
   std::vector<echo::InterferingTransmission> interfering = event.interfering;
   for (echo::InterferingTransmission& transmission : interfering) transmission.time_s -= delay_s;
   echoes_.sea().add_interference(shot, echoed[number_], interfering, pulse, foreign);
+  return foreign;
+}
+
+SectorBeams Sector::beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> sent,
+                             std::span<const Echoed> echoed, std::span<float> amplitude_upa, Memory& memory) const {
+  const auto& [shot, mesh, insonified, sampling, design] = sent[number_];
+  const echo::Pulse& pulse = design.shot.pulse;
+  const echo::Arrivals& foreign = foreign_echoes(event, settings, sent, echoed, memory);
   const auto images = echoes_.beamform(
       shot, echoed[number_], design.shot,
       {event.number(), sampling, memory.sin_beams, design.volume_directions, foreign, amplitude_upa}, memory.beams);
@@ -163,6 +174,16 @@ SectorBeams Sector::beamform(const PingEvent& event, const HeadSettings& setting
           halves,
           echo_s,
           middle_s};
+}
+
+std::vector<SourceEnergy> Sector::energies(const PingEvent& event, const HeadSettings& settings,
+                                           std::span<const Sent> sent, std::span<const Echoed> echoed,
+                                           std::span<const float> sin_beams, Memory& memory) const {
+  const Sent& own = sent[number_];
+  const echo::Arrivals& foreign = foreign_echoes(event, settings, sent, echoed, memory);
+  return echoes_.energies(own.shot, echoed[number_], own.design.shot,
+                          {event.number(), own.sampling, sin_beams, own.design.volume_directions, foreign},
+                          memory.beams);
 }
 
 /// A flat array's delays are made for the sound speed that the head assumes; the true one turns its beams.

@@ -30,7 +30,7 @@ struct SectorBeams {
 class Sector {
  public:
   /// Configuration and arrays outlive the sector; the environment is that of its frequency.
-  Sector(const MultibeamConfig& config, const ArrayDesign& arrays, std::size_t number,
+  Sector(const MultibeamConfig& config, const Effects& effects, const ArrayDesign& arrays, std::size_t number,
          std::shared_ptr<const Environment> environment);
 
   /// What follows from the settings of a ping.
@@ -57,6 +57,7 @@ class Sector {
   /// A sector's transmission.
   struct Sent {
     Shot shot;
+    trace::Mesh mesh;
     Insonified insonified;
     echo::Sampling sampling;
     const Design& design;
@@ -72,7 +73,14 @@ class Sector {
   SectorBeams beamform(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> sent,
                        std::span<const Echoed> echoed, std::span<float> amplitude_upa, Memory& memory) const;
 
+  /// What each source sends to these beams, of a sector without speckle: in place of the third stage.
+  std::vector<SourceEnergy> energies(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> sent,
+                                     std::span<const Echoed> echoed, std::span<const float> sin_beams,
+                                     Memory& memory) const;
+
  private:
+  const echo::Arrivals& foreign_echoes(const PingEvent& event, const HeadSettings& settings, std::span<const Sent> sent,
+                                       std::span<const Echoed> echoed, Memory& memory) const;
   void aim(const Steering& steering, const frames::HeadPose& pose, Memory& memory) const;
 
   const MultibeamConfig& config_;

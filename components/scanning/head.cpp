@@ -168,7 +168,7 @@ Scanning::Report Scanning::ping(const PingEvent& event, const SentPing& sent, co
     const auto receive = [&](const echo::Arrivals& of_others) {
       return ApertureReception{event.number(), design.ranged.sampling, of_others};
     };
-    energies = expectation_->of({event, 1, design.ranged.sampling.count}, shot, mesh, insonified, design.shot, receive,
+    energies = expectation_->of({event, 1, design.ranged.sampling}, shot, mesh, insonified, design.shot, receive,
                                 memory_.expected);
   }
   return {.messages = {ping_message(event, sent, design, angle_rad, image), std::move(labels), std::move(energies)},

@@ -5,7 +5,7 @@
 
 #include "components/scanning/config.h"
 #include "components/sonar/aperture_echoes.h"
-#include "components/sonar/expectation.h"
+#include "components/sonar/expected_echoes.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -60,7 +60,7 @@ class Scanning {
     ShotMemory shot;
     ApertureEchoes::Memory beams;
     Labeller::Memory labels;
-    Expectation<ApertureEchoes>::Memory expected;
+    ExpectedEchoes<ApertureEchoes>::Memory expected;
   };
 
   const Config& config_;
@@ -68,7 +68,7 @@ class Scanning {
   ApertureEchoes echoes_;
   label::Row label_row_;
   std::optional<Labeller> labeller_;
-  std::optional<Expectation<ApertureEchoes>> expectation_;
+  std::optional<ExpectedEchoes<ApertureEchoes>> expectation_;
   Memory memory_;
 };
 

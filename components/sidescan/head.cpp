@@ -217,8 +217,8 @@ Sidescan::Report Sidescan::ping(const PingEvent& event, const SentPing& sent, co
     const auto receive = [&](const echo::Arrivals& of_others) {
       return ApertureReception{event.number(), design.sampling, of_others};
     };
-    energies = expectation_->of({event, 2, design.sampling.count}, shot, mesh, insonified, design.shot, receive,
-                                memory_.expected);
+    energies =
+        expectation_->of({event, 2, design.sampling}, shot, mesh, insonified, design.shot, receive, memory_.expected);
   }
   return {{ping_message(event, settings, design, image), std::move(bottom), std::move(labels), std::move(energies)},
           echoed.rays_that_hit > 0};

@@ -6,7 +6,7 @@
 #include "components/sidescan/config.h"
 #include "components/sonar/aperture_echoes.h"
 #include "components/sonar/bottom_finder.h"
-#include "components/sonar/expectation.h"
+#include "components/sonar/expected_echoes.h"
 #include "components/sonar/head_node.h"
 #include "components/sonar/labeller.h"
 #include "components/sonar/line_design.h"
@@ -60,7 +60,7 @@ class Sidescan {
     ShotMemory shot;
     ApertureEchoes::Memory beams;
     Labeller::Memory labels;
-    Expectation<ApertureEchoes>::Memory expected;
+    ExpectedEchoes<ApertureEchoes>::Memory expected;
     BottomFinder::Memory bottom;
   };
   /// What later pings depend on.
@@ -75,7 +75,7 @@ class Sidescan {
   BottomFinder bottom_;
   std::vector<label::Row> label_rows_;
   std::optional<Labeller> labeller_;
-  std::optional<Expectation<ApertureEchoes>> expectation_;
+  std::optional<ExpectedEchoes<ApertureEchoes>> expectation_;
   Memory memory_;
   State state_;
 };

@@ -155,6 +155,12 @@ struct HeadParameters {
           "energies/1 too, who sends how much of each sample",
           self.labels);
   }
+  /// Labels of a head that has energies alone.
+  template <class Self, class Visit>
+  static void energy_labels(Self& self, Visit&& visit) {
+    visit("labels", "", one_of({{"none", LabelKind::kNone}, {"energies", LabelKind::kEnergies}}),
+          "energies: energies/1 for each ping, who sends how much of each sample of its beams", self.labels);
+  }
   /// The sound speed of a head that is given one.
   template <class Self, class Visit>
   static void sound_speed(Self& self, Visit&& visit) {

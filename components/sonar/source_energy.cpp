@@ -16,7 +16,7 @@ void add_energies(const echo::EchoSet& echoes, const echo::EchoSet& coherent, co
                                           : echo::SampleWindow{std::min(a.first, b.first), std::max(a.end, b.end)};
     if (!window.empty()) energies.push_back({source, contributor, window, form(squares, pressures, window)});
   };
-  add(SourceEnergy::Source::kOtherHeads, trace::kNoise, {&foreign, 1}, {});
+  add(SourceEnergy::Source::kInterference, trace::kNoise, {&foreign, 1}, {});
   const std::vector<echo::OfContributor> rough = by_contributor(echoes), smooth = by_contributor(coherent);
   struct Sets {
     std::vector<echo::EchoSet> squares, pressures;

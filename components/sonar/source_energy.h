@@ -14,12 +14,16 @@ namespace ensonify {
 /// noise: patterns and pulse squared, never the square of one drawn sum. What a smooth body sends has phase: of its
 /// facets the square of their sum.
 struct SourceEnergy {
-  enum class Source : std::uint8_t { kNoise, kVolume, kOtherHeads, kSurface, kContributor };
+  enum class Source : std::uint8_t { kNoise, kVolume, kInterference, kSurface, kContributor };
 
   Source source = Source::kNoise;
   std::uint32_t contributor = trace::kNoise;  // of kContributor, in the ping's table
   echo::SampleWindow window;                  // of the image's samples; nothing outside
   std::vector<float> upa2;                    // row by sample of the window
+
+  float at(std::int64_t row, int sample) const {
+    return upa2[static_cast<std::size_t>(row * window.count() + sample - window.first)];
+  }
 };
 
 /// Forms mean squares, row by sample of a window, of echoes that are mean squares and of those that are pressures.

@@ -708,7 +708,7 @@ class Labels(Message):
 class EnergySource(Struct):
     """Source of sound in a ping.
 
-    kind: kind of source: noise, volume (the water), other heads, surface, seabed or object
+    kind: kind of source: noise, volume (the water), interference (other heads and sectors), surface, seabed or object
     path: way of the sound: direct, surface (out or back by way of it) or bottom (by way of both)
     instance [1]: number of the object in the world, from 1; 0: none
     name: name of the object in the scenario
@@ -734,6 +734,8 @@ class Energies(Message):
     ping [1]: ping number of this head, as of the ping
     beams [1]: rows of the image
     samples [1]: columns of the image
+    first_sample_s [s]: time of the first sample after transmission, as of the ping
+    sample_period_s [s]: time between samples
     sources: sources of sound; the first is noise, and of equals the earlier counts as the stronger
     run [1]: runs (run x 4) of what sources send: place in sources, beam, first sample, sample after the last. What is less than a millionth of a sample is left out
     energy_upa2 [uPa^2]: mean square at each sample of the runs, one after the other
@@ -744,6 +746,8 @@ class Energies(Message):
     ping: int = 0
     beams: int = 0
     samples: int = 0
+    first_sample_s: float = 0.0
+    sample_period_s: float = 0.0
     sources: list = list_of(EnergySource)
     run: np.ndarray = array("i4")
     energy_upa2: np.ndarray = array("f4")

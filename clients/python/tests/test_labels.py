@@ -14,7 +14,7 @@ from ensonify import Labels, Ping, RunError, labels
 from ensonify.labels import __main__ as command
 from ensonify.labels import energies, formats, outlines, pictures
 from ensonify.labels.dataset import Dataset
-from ensonify.messages import Energies, EnergySource, LabelledObject
+from ensonify.messages import Energies, EnergySource, LabelledObject, Soundings, TransmitSector
 
 
 def disc(height, width, x, y, radius):
@@ -296,6 +296,16 @@ class EnergiesOfSources(unittest.TestCase):
         np.testing.assert_array_equal(energies.strongest(of), [[0, 0, 1, 0, 2, 0], [0] * 6])
         self.assertEqual(energies.object_places(of), {4: 1})
         self.assertEqual(energies.topic_of("side/ping_main"), "side/energies_main")
+
+    def test_soundings_have_sources(self):
+        of = energies_of_two()
+        of.first_sample_s, of.sample_period_s = 0.01, 0.001
+        soundings = Soundings(beam=np.array([0, 0, 1, 0]), travel_time_s=np.array([0.0121, 0.0139, 0.012, 0.0170], np.float32))
+        np.testing.assert_array_equal(energies.of_soundings(soundings, of), [1, 2, 0, -1])
+        # One for each beam, the second of a sector that sends 2 ms later; NaN: none.
+        sectors = [TransmitSector(), TransmitSector(delay_s=0.002)]
+        soundings = Soundings(travel_time_s=np.array([0.0121, np.nan], np.float32), sector=np.array([1, 1], np.uint8), sectors=sectors)
+        np.testing.assert_array_equal(energies.of_soundings(soundings, of), [2, -1])
 
     def test_what_does_not_fit_is_refused(self):
         for change in ({"beams": 1}, {"samples": 5}, {"sources": energies_of_two().sources[:2]},

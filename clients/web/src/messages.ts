@@ -435,7 +435,7 @@ export interface Labels {
 }
 
 export interface EnergySource {
-  /** kind of source: noise, volume (the water), other heads, surface, seabed or object */
+  /** kind of source: noise, volume (the water), interference (other heads and sectors), surface, seabed or object */
   kind: string;
   /** way of the sound: direct, surface (out or back by way of it) or bottom (by way of both) */
   path: string;
@@ -460,6 +460,10 @@ export interface Energies {
   beams: number;
   /** columns of the image (1) */
   samples: number;
+  /** time of the first sample after transmission, as of the ping (s) */
+  first_sample_s: number;
+  /** time between samples (s) */
+  sample_period_s: number;
   /** sources of sound; the first is noise, and of equals the earlier counts as the stronger */
   sources: EnergySource[];
   /** runs (run x 4) of what sources send: place in sources, beam, first sample, sample after the last. What is less than a millionth of a sample is left out (1) */

@@ -2,13 +2,13 @@
 
 A head with `labels: energies` publishes energies/1 beside its pings and labels. Places are those of sources in
 Energies.sources: 0 is noise. A source is an object or a sediment by one path (direct, surface, bottom), the surface overhead,
-the water (volume) or other heads.
+the water (volume) or interference.
 """
 from typing import Iterator
 
 import numpy as np
 
-from ensonify.messages import Energies
+from ensonify.messages import Energies, Soundings
 from ensonify.session import EXIT_BAD_INPUT, RunError
 
 RESPONSE = 0.5  # least share of a sample that is a response
@@ -80,6 +80,18 @@ def strongest(of: Energies) -> np.ndarray:
         most[beam, first:end][more] = row[more]
         who[beam, first:end][more] = place
     return who
+
+
+def of_soundings(soundings: Soundings, of: Energies) -> np.ndarray:
+    """Place of the source that sends most at each detection of a multibeam: entries, int32; -1 outside the image."""
+    time_s = soundings.travel_time_s.astype(np.float64)  # after the sector's own transmission
+    if soundings.sectors and soundings.sector.size:
+        time_s = time_s + np.array([sector.delay_s for sector in soundings.sectors])[soundings.sector]
+    sample = np.rint((time_s - of.first_sample_s) / of.sample_period_s)
+    inside = (sample >= 0) & (sample < of.samples)
+    beam = soundings.beam if soundings.beam.size else np.arange(time_s.size)
+    places = strongest(of)[beam, np.where(inside, sample, 0).astype(int)]
+    return np.where(inside, places, -1)
 
 
 def object_places(of: Energies) -> dict:

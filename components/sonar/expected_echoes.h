@@ -19,12 +19,19 @@ inline constexpr std::size_t kEnergySources = 16;
 /// Image that energies are of.
 struct EnergyImage {
   const PingEvent& event;
-  std::int64_t rows = 0, samples = 0;
+  std::int64_t rows = 0;
+  echo::Sampling sampling;
 };
 
-/// What each source of a ping sends, with the names of the bodies that a mesh holds.
-msg::Energies energies_message(const EnergyImage& image, const trace::Mesh& mesh,
-                               std::span<const SourceEnergy> energies);
+/// Energies of some rows of an image, with the mesh that names their bodies.
+struct EnergyRows {
+  std::int64_t first = 0, count = 0;
+  const trace::Mesh& mesh;
+  std::vector<SourceEnergy> energies;
+};
+
+/// What each source of a ping sends.
+msg::Energies energies_message(const EnergyImage& image, std::span<const EnergyRows> parts);
 
 /// A head's effects without what is drawn in echoes.
 inline Effects without_speckle(Effects effects) {
@@ -35,9 +42,9 @@ inline Effects without_speckle(Effects effects) {
 /// What a head is to expect of a ping: its echoes once more, as mean squares. Echoes are ArrayEchoes or ApertureEchoes,
 /// made as the head's own but without speckle.
 template <class Echoes>
-class Expectation {
+class ExpectedEchoes {
  public:
-  explicit Expectation(Echoes echoes) : echoes_(std::move(echoes)) {}
+  explicit ExpectedEchoes(Echoes echoes) : echoes_(std::move(echoes)) {}
 
   /// Memory of the caller's: its contents do not matter.
   struct Memory {
@@ -52,7 +59,8 @@ class Expectation {
     const SeaAcoustics& sea = echoes_.sea();
     const Echoed echoed = sea.echoes(shot, insonified, memory.shot);
     const echo::Arrivals& foreign = sea.interference(shot, echoed, image.event.interfering, design.pulse, memory.shot);
-    return energies_message(image, mesh, echoes_.energies(shot, echoed, design, receive(foreign), memory.beams));
+    const EnergyRows all{0, image.rows, mesh, echoes_.energies(shot, echoed, design, receive(foreign), memory.beams)};
+    return energies_message(image, {&all, 1});
   }
 
  private:

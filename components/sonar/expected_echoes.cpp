@@ -1,7 +1,9 @@
-#include "components/sonar/expectation.h"
+#include "components/sonar/expected_echoes.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "kernels/base/profile/profile.h"
 
@@ -26,7 +28,7 @@ msg::EnergySource source_of(const SourceEnergy& energy, const trace::Mesh& mesh)
   switch (energy.source) {
     case SourceEnergy::Source::kNoise: source.kind = "noise"; return source;
     case SourceEnergy::Source::kVolume: source.kind = "volume"; return source;
-    case SourceEnergy::Source::kOtherHeads: source.kind = "other heads"; return source;
+    case SourceEnergy::Source::kInterference: source.kind = "interference"; return source;
     case SourceEnergy::Source::kSurface: source.kind = "surface"; return source;
     case SourceEnergy::Source::kContributor: break;
   }
@@ -46,6 +48,12 @@ msg::EnergySource source_of(const SourceEnergy& energy, const trace::Mesh& mesh)
   return source;
 }
 
+/// What a source sends to some rows.
+struct Piece {
+  const EnergyRows& rows;
+  const SourceEnergy& energy;
+};
+
 /// Runs of samples of which an energy is enough.
 template <class Enough, class Add>
 void for_runs(const echo::SampleWindow& window, const Enough& enough, const Add& add) {
@@ -64,43 +72,54 @@ void for_runs(const echo::SampleWindow& window, const Enough& enough, const Add&
 
 }  // namespace
 
-msg::Energies energies_message(const EnergyImage& image, const trace::Mesh& mesh,
-                               std::span<const SourceEnergy> energies) {
+msg::Energies energies_message(const EnergyImage& image, std::span<const EnergyRows> parts) {
   const profile::Span span(profile::Stage::kLabels);
   msg::Energies message;
   message.stamp_ns = image.event.transmit.count();
   message.ping = image.event.ping;
   message.beams = image.rows;
-  message.samples = image.samples;
-  const auto samples = static_cast<std::size_t>(image.samples);
-  std::vector<float> sum(static_cast<std::size_t>(image.rows) * samples);
-  const auto at = [](const SourceEnergy& energy, std::int64_t row, int k) {
-    return energy.upa2[static_cast<std::size_t>(row * energy.window.count() + k - energy.window.first)];
+  message.samples = image.sampling.count;
+  message.first_sample_s = image.sampling.start_s;
+  message.sample_period_s = image.sampling.period_s;
+
+  std::map<std::pair<SourceEnergy::Source, std::uint32_t>, std::vector<Piece>> sources;
+  std::vector<float> sum(static_cast<std::size_t>(image.rows * image.sampling.count));
+  const auto at = [&](std::int64_t row, int k) -> float& {
+    return sum[static_cast<std::size_t>(row * image.sampling.count + k)];
   };
-  for (const SourceEnergy& energy : energies) {
-    for (std::int64_t row = 0; row < image.rows; ++row) {
-      for (int k = energy.window.first; k < energy.window.end; ++k)
-        sum[static_cast<std::size_t>(row) * samples + static_cast<std::size_t>(k)] += at(energy, row, k);
+  for (const EnergyRows& rows : parts) {
+    for (const SourceEnergy& energy : rows.energies) {
+      auto& pieces = sources[{energy.source, energy.contributor}];
+      if (pieces.empty()) message.sources.emplace_back();
+      pieces.push_back({rows, energy});
+      for (std::int64_t row = 0; row < rows.count; ++row) {
+        for (int k = energy.window.first; k < energy.window.end; ++k) at(rows.first + row, k) += energy.at(row, k);
+      }
     }
   }
-  for (const SourceEnergy& energy : energies) message.sources.push_back(source_of(energy, mesh));
+  std::ranges::transform(sources, message.sources.begin(), [](const auto& source) {
+    return source_of(source.second.front().energy, source.second.front().rows.mesh);
+  });
+
   std::vector<std::int32_t> runs;
   std::vector<float> written;
   const auto write = [&](float least_share) {
     runs.clear(), written.clear();
-    for (std::size_t place = 0; place < energies.size(); ++place) {
-      const SourceEnergy& energy = energies[place];
-      for (std::int64_t row = 0; row < image.rows; ++row) {
-        const auto enough = [&](int k) {
-          const float upa2 = at(energy, row, k);
-          return upa2 > 0.0F &&
-                 upa2 >= least_share * sum[static_cast<std::size_t>(row) * samples + static_cast<std::size_t>(k)];
-        };
-        for_runs(energy.window, enough, [&](int first, int end) {
-          runs.insert(runs.end(), {static_cast<std::int32_t>(place), static_cast<std::int32_t>(row), first, end});
-          for (int k = first; k < end; ++k) written.push_back(std::max(0.0F, at(energy, row, k)));
-        });
+    std::int32_t place = 0;
+    for (const auto& source : sources) {
+      for (const auto& [rows, energy] : source.second) {
+        for (std::int64_t row = 0; row < rows.count; ++row) {
+          const auto upa2 = [&, &of = energy](int k) { return std::max(0.0F, of.at(row, k)); };
+          const auto enough = [&, &in = rows](int k) {
+            return upa2(k) > 0.0F && upa2(k) >= least_share * at(in.first + row, k);
+          };
+          for_runs(energy.window, enough, [&, &in = rows](int first, int end) {
+            runs.insert(runs.end(), {place, static_cast<std::int32_t>(in.first + row), first, end});
+            for (int k = first; k < end; ++k) written.push_back(upa2(k));
+          });
+        }
       }
+      ++place;
     }
   };
   float least_share = kLeastShare;
