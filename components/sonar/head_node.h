@@ -183,20 +183,16 @@ class HeadNode {
   /// The ping's picture, with the soundings of heads that have them.
   template <class Messages>
   static void show(const Messages& messages, PingPictures& pictures) {
-    const std::optional<msg::Ping>& ping = std::get<std::optional<msg::Ping>>(messages);
-    if (!ping) return;
+    const msg::Ping* ping = nullptr;
     const msg::Soundings* soundings = nullptr;
-    if constexpr (has_soundings<Messages>) {
-      const auto& all = std::get<std::optional<msg::Soundings>>(messages);
-      if (all) soundings = &*all;
-    }
-    pictures.show(*ping, soundings);
+    const auto note = [&]<msg::Message M>(const std::optional<M>& message) {
+      if (!message) return;
+      if constexpr (std::is_same_v<M, msg::Ping>) ping = &*message;
+      if constexpr (std::is_same_v<M, msg::Soundings>) soundings = &*message;
+    };
+    std::apply([&](const auto&... all) { (note(all), ...); }, messages);
+    if (ping != nullptr) pictures.show(*ping, soundings);
   }
-
-  template <class Messages>
-  static constexpr bool has_soundings = requires(const Messages& m) {
-    std::get<std::optional<msg::Soundings>>(m);
-  };
 
   /// act(a, b) of the elements of two tuples, in their order.
   template <class A, class B, class Act>
