@@ -63,7 +63,7 @@ SEES = {
     "components/view": ["messages", "kernels/base"],
     "components/truth": TALK + KERNELS,
     "components/terrain": WORLD,
-    "components/sonar": TALK + WORLD + ["components/terrain/mesh_message.h", "components/terrain/object_message.h"],
+    "components/sonar": TALK + WORLD + ["components/view", "components/terrain/mesh_message.h", "components/terrain/object_message.h"],
     "components": SHARED + ["launch/file", "launch/process"],
     "scenarios": WORLD,
     "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],

@@ -34,6 +34,7 @@ struct View {
   double added_absorption_dbpm = 0.0;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_head{};
+  std::int64_t left_out = 0;
   Array<float> find_angle_rad;
   Array<float> find_range_m;
   Array<std::uint8_t> find_kind;
@@ -72,6 +73,8 @@ struct View {
     visit("enu_from_head", "1",
           "estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known",
           self.enu_from_head);
+    visit("left_out", "1", "number of pictures that were left out so far because the run waited for the head",
+          self.left_out);
     visit("find_angle_rad", "rad", "beam axes of the ping's valid detections; empty: none are known",
           self.find_angle_rad);
     visit("find_range_m", "m", "slant range of each of these detections, by the head's own sound speed",

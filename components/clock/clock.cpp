@@ -195,7 +195,8 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
   account.cost_ns += done.cost_ns;
   const bool was_last = epoch_.conductor->next(rank) == epoch_.conductor->now();
   const SimTime late = pacer_.lateness(epoch_.conductor->now(), now);
-  if (was_last && late > kLateAfter) {
+  note_late(rank, was_last && late > kLateAfter);
+  if (account.late) {
     ++account.late_events;
     account.worst_lateness = std::max(account.worst_lateness, late);
   }
@@ -212,6 +213,14 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
     }
   }
   hand_out();
+}
+
+/// Who has ports for viewers works for them only while nobody waits for it.
+void Clock::note_late(std::size_t rank, bool late) {
+  Account& account = epoch_.accounts[rank];
+  if (late == account.late) return;
+  account.late = late;
+  if (!registry_.declarations()[rank].lives.empty()) router_.send(account.name, protocol::encode_late(late));
 }
 
 /// The culprit that a participant names must be one whose messages it takes.

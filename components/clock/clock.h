@@ -26,6 +26,7 @@ struct Account {
   std::int64_t cost_ns = 0;       // wall time inside its events
   std::uint64_t late_events = 0;  // grants it finished last, more than kLateAfter behind the paced time
   SimTime worst_lateness{0};
+  bool late = false;  // by its last grant, of which it hears if it has ports for viewers
 };
 
 /// A run is late when sim time stands this far behind paced time.
@@ -107,6 +108,7 @@ class Clock {
   void start();
   void hand_out();
   void watch_progress(WallTime now);
+  void note_late(std::size_t rank, bool late);
   void report_health(WallTime now);
   void refuse(const std::string& to, const std::string& kind, const std::string& why);
   void fail(int code, const std::string& culprit, const std::string& message);

@@ -56,6 +56,21 @@ TEST_CASE("a stranger, a double and a process under another's name are refused")
   CHECK(registry.join("a", hello_of("a", {}, {})) == "a: has joined already");
 }
 
+TEST_CASE("a port for viewers is no topic of the graph: it cannot be wired or recorded") {
+  clock::Registry registry(launch_of({"bow", "recorder", "agent"}));
+  auto bow = hello_of("bow", {{"ping", "ping/1", 100, {1, 1}}}, {});
+  bow.declaration.lives = {{"view", "view/1", 100}};
+  CHECK(registry.join("bow", bow).empty());
+  CHECK(registry.join("recorder", hello_of("recorder", {}, {{"all", "*", SimTime{0}, true, {"*"}, 0}})).empty());
+  CHECK(registry.join("agent", hello_of("agent", {}, {{"view", "view/1", SimTime{0}, true, {}, 0}})).empty());
+  REQUIRE(registry.check().empty());
+  CHECK(registry.graph().topics.size() == 1);
+  CHECK(registry.welcome(0).outs.size() == 1);
+  REQUIRE(registry.welcome(1).ins.size() == 1);
+  CHECK(registry.welcome(1).ins[0].feed.topic == "bow/ping");
+  CHECK(registry.welcome(2).ins.empty());
+}
+
 TEST_CASE("everybody learns what each process declares") {
   clock::Registry registry(launch_of({"bow", "pager"}));
   auto bow = hello_of("bow", {}, {});

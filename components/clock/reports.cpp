@@ -54,6 +54,21 @@ json to_json(const Account& a) {
           {"worst_lateness_s", seconds(a.worst_lateness)}};
 }
 
+/// Registry entry of a port for viewers. How much it has published is known to none but its process.
+json live_topic(const protocol::Hello& hello, const LivePort& port) {
+  return {{"topic", hello.declaration.process + "/" + port.port},
+          {"topic_id", kNoTopicId},
+          {"type", port.type},
+          {"publisher", hello.declaration.process},
+          {"component", hello.declaration.component},
+          {"max_bytes", port.max_bytes},
+          {"rate", {0, 1}},
+          {"live", hello.live_endpoint},
+          {"sync", ""},
+          {"published", 0},
+          {"subscribers", json::array()}};
+}
+
 }  // namespace
 
 /// Of a process on another host nothing is known: its number may be anybody's here.
@@ -174,6 +189,10 @@ std::string Clock::registry_json() const {
                       {"sync", ""},
                       {"published", epoch_.health_count},
                       {"subscribers", json::array()}});
+  }
+  for (const protocol::Hello& hello : registry_.hellos()) {
+    if (graph.topics.empty()) break;
+    for (const LivePort& port : hello.declaration.lives) topics.push_back(live_topic(hello, port));
   }
   json processes = json::array();
   for (const Declaration& d : registry_.declarations()) {

@@ -159,7 +159,8 @@ Multibeam::Report Multibeam::ping(const PingEvent& event, const Sent& sent, cons
   placed.soundings.applied = applied_settings(config_, event, settings, steering);
   const auto every = [&](int n) { return n > 0 && event.ping % n == 0; };
   const bool phase = settings.mode == "water_column" || every(config_.phase_every);
-  if (phase || every(config_.amplitude_every)) {
+  report.for_viewers = !phase && !every(config_.amplitude_every);
+  if (!report.for_viewers || event.picture) {
     std::get<0>(report.messages) = ping_message(config_, event, settings, steering, placed.soundings.applied,
                                                 {memory_.amplitude_upa, beams, phase});
   }

@@ -1,9 +1,11 @@
 #include "components/multibeam/node.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "components/multibeam/testing/survey.h"
+#include "components/view/ping_view.h"
 
 // When the node pings, what it is given meanwhile, and what it says of itself.
 
@@ -15,6 +17,11 @@ namespace {
 std::string last_health(Head& head, SimTime t) {
   const auto health = head.step_until<msg::Health>("health", t);
   return health.empty() ? "none" : health.back().state + ": " + health.back().message;
+}
+
+std::string bytes_of(const msg::Packet& packet) {
+  const msg::Buffer bytes = msg::encode_inline(packet.body);
+  return {reinterpret_cast<const char*>(bytes.data), bytes.size};
 }
 
 }  // namespace
@@ -125,6 +132,39 @@ TEST_CASE("the same ping twice has the same bytes, another seed has others") {
   REQUIRE(a.size() == b.size());
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i].amplitude_upa == b[i].amplitude_upa);
   CHECK_FALSE(a[0].amplitude_upa == other[0].amplitude_upa);
+}
+
+TEST_CASE("a viewer sees pings that are not published, and what is published is the same without him") {
+  MultibeamConfig config = shallow();
+  config.amplitude_every = 1000;
+  Head watched(config), alone(config);
+  config.amplitude_every = 1;
+  Head all(config);
+  for (Head* head : {&watched, &alone, &all}) {
+    give_motion(*head, {}, 2_s);
+    head->give("tile", flat_tile(-20.0));
+    head->run_until(150_ms);
+  }
+  REQUIRE(watched.take("ping").size() == 1);
+  REQUIRE(watched.take("view").empty());
+  const auto pings = all.step_until<msg::Ping>("ping", 1_s);
+  watched.watch();
+  alone.run_until(1_s);
+  const auto views = watched.step_until<msg::View>("view", 1_s);
+  CHECK(watched.take("ping").empty());
+  REQUIRE_FALSE(views.empty());
+  const auto ping = std::find_if(pings.begin(), pings.end(), [&](const auto& p) { return p.ping == views[0].ping; });
+  REQUIRE(ping != pings.end());
+  CHECK(ping->ping > 0);
+  const msg::View anew = view_of(*ping, "down", {});
+  CHECK(views[0].level == anew.level);
+  CHECK(views[0].level_floor_db == anew.level_floor_db);
+  CHECK(views[0].position_enu_m == anew.position_enu_m);
+  CHECK(views[0].find_range_m.size() > 10);
+  const auto with = watched.take("soundings"), without = alone.take("soundings");
+  REQUIRE(with.size() == without.size());
+  REQUIRE(with.size() > 5);
+  for (std::size_t i = 0; i < with.size(); ++i) CHECK(bytes_of(with[i]) == bytes_of(without[i]));
 }
 
 TEST_CASE("commands change the next ping: range, power, pulse, gain, swath, rate and mode") {

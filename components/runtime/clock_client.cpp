@@ -26,6 +26,7 @@ TopicEntry read_topic(const json& from) {
   topic.max_bytes = from.at("max_bytes");
   topic.rate = {from.at("rate").at(0), from.at("rate").at(1)};
   topic.endpoint = from.at("live");
+  topic.live_only = from.at("sync") == "";
   topic.published = from.at("published");
   for (const json& s : from.at("subscribers")) {
     topic.subscribers.push_back({s.at("process"), s.at("port"), SimTime{s.at("delay_ns").get<std::int64_t>()}});

@@ -26,8 +26,9 @@ struct TopicEntry {
   std::string publisher;
   std::string component;  // of the publisher
   std::size_t max_bytes = 0;
-  Rate rate;             // highest rate declared; {0}: not periodic
-  std::string endpoint;  // of the live plane
+  Rate rate;               // highest rate declared; {0}: not periodic
+  std::string endpoint;    // of the live plane
+  bool live_only = false;  // for viewers: no participant and no record reads it
   std::uint64_t published = 0;
   std::vector<Subscriber> subscribers;
 };

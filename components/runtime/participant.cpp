@@ -36,6 +36,7 @@ class Participant {
         run_grant(*grant);
       } else {
         const std::string kind = protocol::kind_of(event.control);
+        if (kind == "late") late_ = protocol::read_late(event.control);
         if (kind == "welcome") welcome(event.control);
         if (kind == "epoch") begin(protocol::read_epoch(event.control));
         if (kind == "refused") return refused(event.control);
@@ -84,7 +85,10 @@ class Participant {
           {c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes, c.publisher, c.rank, c.rate});
     }
     session_->stepper().wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
-                             [this](msg::Packet&& packet) { link_.publish(packet); });
+                             [this](msg::Packet&& packet) { link_.publish(packet); },
+                             {.watched = [this](const std::string& topic) { return link_.is_watched(topic); },
+                              .send = [this](msg::Packet&& packet) { link_.publish_live(packet); },
+                              .late = [this] { return late_; }});
     link_.subscribe(subscriptions, w.epoch);
     if (wired_) link_.send_control(R"({"kind":"ready"})");
     wired_ = true;
@@ -162,6 +166,7 @@ class Participant {
   std::chrono::milliseconds patience_{0};
   bool wired_ = false;  // edges are proven once
   bool granted_ = false;
+  bool late_ = false;  // says the clock, to who has ports for viewers
 };
 
 }  // namespace

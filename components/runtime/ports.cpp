@@ -1,5 +1,6 @@
 #include "components/runtime/ports.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "components/errors/assert.h"
@@ -11,11 +12,23 @@ namespace ensonify {
 Ports::Ports(std::string process, std::filesystem::path out_dir)
     : process_(std::move(process)), out_dir_(std::move(out_dir)) {}
 
+void Ports::require_new(const std::string& port) const {
+  ENSONIFY_ASSERT(!publish_, process_ + "/" + port + ": ports are declared in the node's constructor");
+  const auto same = [&](const auto& other) { return other.port == port; };
+  ENSONIFY_ASSERT(std::none_of(outs_.begin(), outs_.end(), same) && std::none_of(lives_.begin(), lives_.end(), same),
+                  "port " + port + " declared twice");
+}
+
 std::size_t Ports::declare_out(OutPort port) {
-  ENSONIFY_ASSERT(!publish_, process_ + "/" + port.port + ": ports are declared in the node's constructor");
-  for (const OutPort& other : outs_) ENSONIFY_ASSERT(other.port != port.port, "port " + port.port + " declared twice");
+  require_new(port.port);
   outs_.push_back(std::move(port));
   return outs_.size() - 1;
+}
+
+std::size_t Ports::declare_live(LivePort port) {
+  require_new(port.port);
+  lives_.push_back(std::move(port));
+  return lives_.size() - 1;
 }
 
 std::size_t Ports::declare_in(InPort port, PacketHandler handler) {
@@ -28,10 +41,12 @@ std::size_t Ports::declare_in(InPort port, PacketHandler handler) {
 
 void Ports::seal() { health_port_ = declare_out({"health", msg::Health::kType, 1 << 16, Rate{1, 1}}); }
 
-void Ports::connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish) {
+void Ports::connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish,
+                    LivePlane live) {
   feeds_ = std::move(feeds);
   facts_ = std::move(facts);
   publish_ = std::move(publish);
+  live_ = std::move(live);
   injector_.reset();
   if (const auto fact = facts_.find(kInjectFact); fact != facts_.end() && !fact->second.empty()) {
     std::vector<std::string> names;

@@ -42,6 +42,12 @@ struct OutPort {
   std::size_t max_bytes = 0;
   Rate rate;
 };
+/// A port for viewers: its messages go to the live plane alone, and only while somebody subscribes.
+struct LivePort {
+  std::string port;
+  std::string type;
+  std::size_t max_bytes = 0;
+};
 struct InPort {
   std::string port;
   std::string type;  // "*" takes any type
@@ -63,6 +69,14 @@ struct Feed {
   SimTime delay{0};
   std::size_t max_bytes = 0;
   Rate rate;  // highest that the publisher declared
+};
+
+/// What carries messages to viewers; empty where there is none. What it says depends on wall time: nothing else that a
+/// node publishes may follow from it.
+struct LivePlane {
+  std::function<bool(std::size_t live_index)> watched;
+  std::function<void(std::size_t live_index, msg::Body)> publish;
+  std::function<bool()> late;
 };
 
 /// A received message with what its envelope says, for those who need more than its content.
@@ -97,6 +111,28 @@ class Ports {
   Out<M> out(const std::string& port, OutOptions options = {}) {
     return {this, declare_out({port, M::kType, options.max_bytes, options.rate})};
   }
+
+  /// A handle with which a node shows something to viewers, for whom alone it is made.
+  template <msg::Message M>
+  class LiveOut {
+   public:
+    bool watched() const { return ports_->live_.watched && ports_->live_.watched(index_); }
+    void send(const M& message) { ports_->live_.publish(index_, msg::encode(message)); }
+
+   private:
+    friend class Ports;
+    LiveOut(Ports* ports, std::size_t index) : ports_(ports), index_(index) {}
+    Ports* ports_;
+    std::size_t index_;
+  };
+
+  template <msg::Message M>
+  LiveOut<M> live_out(const std::string& port, std::size_t max_bytes) {
+    return {this, declare_live({port, M::kType, max_bytes})};
+  }
+
+  /// The run is behind its pace and waits for this process: not the time to work for viewers.
+  bool late() const { return live_.late && live_.late(); }
 
   template <msg::Message M>
   void in(const std::string& port, std::function<void(const M&)> handler, InOptions options = {}) {
@@ -169,11 +205,12 @@ class Ports {
   const std::map<std::string, msg::Value>& declares() const { return declares_; }
   const std::vector<OutPort>& outs() const { return outs_; }
   const std::vector<InPort>& ins() const { return ins_; }
+  const std::vector<LivePort>& lives() const { return lives_; }
   bool declares_finish() const { return may_finish_; }
   bool finish_requested() const { return finish_requested_; }
   /// Declares the health port, which every process has; called once the node is constructed.
   void seal();
-  void connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish);
+  void connect(std::vector<Feed> feeds, std::map<std::string, std::string> facts, Publish publish, LivePlane live = {});
   void begin_event(SimTime now);
   /// Publishes `health` if it changed, at most once a second.
   void end_event();
@@ -181,6 +218,8 @@ class Ports {
 
  private:
   std::size_t declare_in(InPort port, PacketHandler handler);
+  std::size_t declare_live(LivePort port);
+  void require_new(const std::string& port) const;
 
   /// The message, or nothing when a number of it is not finite where it must be: counted, and its sender named.
   template <msg::Message M>
@@ -200,8 +239,10 @@ class Ports {
   std::map<std::string, std::string> facts_;
   std::vector<OutPort> outs_;
   std::vector<InPort> ins_;
+  std::vector<LivePort> lives_;
   std::vector<PacketHandler> handlers_;
   Publish publish_;
+  LivePlane live_;
   std::shared_ptr<Injector> injector_;  // null: nothing is injected
   SimTime now_{0};
   std::map<std::string, msg::Value> declares_;

@@ -36,10 +36,15 @@ json to_json(const Declaration& d) {
                   {"topics", p.topics},
                   {"least_rate", {p.least.num, p.least.den}}});
   }
+  json live_only = json::array();
+  for (const LivePort& p : d.lives)
+    live_only.push_back({{"port", p.port}, {"type", p.type}, {"max_bytes", p.max_bytes}});
   json declares = json::object();
   for (const auto& [type, content] : d.declares) declares[type] = json::parse(msg::to_json(content));
-  return {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish}, {"out", out},
-          {"in", in},          {"declares", declares}};
+  json j = {{"name", d.process}, {"component", d.component}, {"may_finish", d.may_finish}, {"out", out},
+            {"in", in},          {"declares", declares}};
+  if (!d.lives.empty()) j["live_only"] = live_only;
+  return j;
 }
 
 /// The value under `key`, of exactly the kind asked for: a number is no text and 1.5 no integer. Throws naming the key.
@@ -103,11 +108,19 @@ Rate rate(const json& p, const char* key) {
   return rate;
 }
 
-OutPort out_port(const json& p) {
-  OutPort out{port_name(p), field<std::string>(p, "type"), field<std::size_t>(p, "max_bytes", 4096), {}};
-  if (out.max_bytes > kMostBytes) throw std::runtime_error("max_bytes: is more than " + std::to_string(kMostBytes));
-  out.rate = rate(p, "rate");
-  return out;
+std::size_t max_bytes(const json& p) {
+  const auto bytes = field<std::size_t>(p, "max_bytes", 4096);
+  if (bytes > kMostBytes) throw std::runtime_error("max_bytes: is more than " + std::to_string(kMostBytes));
+  return bytes;
+}
+
+OutPort out_port(const json& p) { return {port_name(p), field<std::string>(p, "type"), max_bytes(p), rate(p, "rate")}; }
+
+LivePort live_port(const json& p, const std::vector<OutPort>& outs) {
+  LivePort port{port_name(p), field<std::string>(p, "type"), max_bytes(p)};
+  if (std::any_of(outs.begin(), outs.end(), [&](const OutPort& out) { return out.port == port.port; }))
+    throw std::runtime_error("port: \"" + port.port + "\" is an output as well");
+  return port;
 }
 
 InPort in_port(const json& p) {
@@ -179,6 +192,8 @@ Declaration from_json(const json& j) {
   if (j.contains("declares")) d.declares = declares(j["declares"]);
   each_port(j, "out", [&](const json& p) { d.outs.push_back(out_port(p)); });
   each_port(j, "in", [&](const json& p) { d.ins.push_back(in_port(p)); });
+  if (j.contains("live_only"))
+    each_port(j, "live_only", [&](const json& p) { d.lives.push_back(live_port(p, d.outs)); });
   return d;
 }
 
@@ -289,6 +304,9 @@ Begin read_epoch(std::string_view text) {
   const json j = parse(text);
   return {field<std::uint32_t>(j, "epoch"), field<std::vector<std::string>>(j, "set"), field<std::string>(j, "out")};
 }
+
+std::string encode_late(bool late) { return json{{"kind", "late"}, {"late", late}}.dump(); }
+bool read_late(std::string_view text) { return field<bool>(parse(text), "late"); }
 
 std::string kind_of(std::string_view text) {
   if (text.starts_with('G')) return "grant";

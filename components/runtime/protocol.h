@@ -91,6 +91,9 @@ std::optional<Done> read_done(std::string_view bytes);
 /// {"kind":"epoch","epoch":2,"set":[..],"out":".."}
 std::string encode(const Begin& begin);
 Begin read_epoch(std::string_view json);
+/// {"kind":"late","late":true}
+std::string encode_late(bool late);
+bool read_late(std::string_view json);
 /// {"kind":"failed","code":..,"message":..,"culprit":..}
 std::string encode_failed(const Failed& failed);
 Failed read_failed(std::string_view json);

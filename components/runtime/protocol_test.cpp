@@ -45,6 +45,23 @@ TEST_CASE("ports survive their JSON") {
   CHECK(back.ins.at(0).optional);
 }
 
+TEST_CASE("ports for viewers stand apart in a HELLO, and are no output as well") {
+  Declaration d{"bow", "multibeam", {{"ping", "ping/1", 100, {10, 1}}}, {}, false};
+  CHECK(protocol::declaration_json(d).find("live_only") == std::string::npos);
+  d.lives = {{"view", "view/1", 5000}};
+  const Declaration back = protocol::read_declaration(protocol::declaration_json(d));
+  REQUIRE(back.lives.size() == 1);
+  CHECK(back.lives[0].port == "view");
+  CHECK(back.lives[0].type == "view/1");
+  CHECK(back.lives[0].max_bytes == 5000);
+  CHECK(back.outs.size() == 1);
+  d.lives[0].port = "ping";
+  CHECK_THROWS_WITH(protocol::read_declaration(protocol::declaration_json(d)),
+                    "live_only[0].port: \"ping\" is an output as well");
+  CHECK(protocol::read_late(protocol::encode_late(true)));
+  CHECK_FALSE(protocol::read_late(protocol::encode_late(false)));
+}
+
 TEST_CASE("what is not a control message is reported, without a crash") {
   CHECK(protocol::kind_of("") == "");
   CHECK(protocol::kind_of("nonsense") == "");

@@ -5,23 +5,39 @@
 
 #include "components/errors/assert.h"
 #include "components/runtime/peer.h"
+#include "components/runtime/wiring.h"
 
 namespace ensonify {
 
 void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
-                   std::uint32_t epoch, std::uint32_t rank, Send send) {
+                   std::uint32_t epoch, std::uint32_t rank, Send send, Viewers viewers) {
   epoch_ = epoch;
   rank_ = rank;
   send_ = std::move(send);
+  viewers_ = std::move(viewers);
   outs_ = std::move(outs);
   published_.assign(outs_.size(), 0);
   limits_.clear();
   for (const OutPort& out : ports_.outs()) limits_.emplace_back(out.rate);
   inlets_.clear();
   for (const Feed& feed : feeds) inlets_.push_back({feed, 0, {}});
-  ports_.connect(std::move(feeds), std::move(facts), [this](std::size_t out, msg::Body body, msg::Buffer wall) {
+  const auto publish_it = [this](std::size_t out, msg::Body body, msg::Buffer wall) {
     publish(out, std::move(body), std::move(wall));
-  });
+  };
+  ports_.connect(std::move(feeds), std::move(facts), publish_it, live_plane());
+}
+
+/// Nothing of it is counted in published(), limited or injected: no participant knows of it.
+LivePlane Stepper::live_plane() {
+  lives_.clear();
+  for (const LivePort& port : ports_.lives()) lives_.push_back({ports_.process() + "/" + port.port, kNoTopicId});
+  shown_.assign(lives_.size(), 0);
+  if (!viewers_.send) return {};
+  const auto watched = [this](std::size_t i) { return viewers_.watched(lives_[i].topic); };
+  const auto show = [this](std::size_t i, msg::Body body) {
+    viewers_.send(packet_of(lives_[i], ports_.lives()[i].type, shown_[i]++, std::move(body), {}));
+  };
+  return {watched, show, viewers_.late};
 }
 
 void Stepper::insert(const msg::Packet& packet) {
@@ -83,20 +99,25 @@ void Stepper::publish(std::size_t out_index, msg::Body body, msg::Buffer wall_fa
   const OutTopic& out = outs_[out_index];
   ENSONIFY_ASSERT(limits_[out_index].take(1, last_),
                   ports_.process() + "/" + ports_.outs()[out_index].port + ": " + limits_[out_index].text());
+  send_(packet_of(out, ports_.outs()[out_index].type, published_[out_index]++, std::move(body), std::move(wall_facts)));
+}
+
+msg::Packet Stepper::packet_of(const OutTopic& topic, const std::string& type, std::uint64_t seq, msg::Body body,
+                               msg::Buffer wall_facts) const {
   msg::Packet packet;
-  packet.topic = out.topic;
+  packet.topic = topic.topic;
   packet.envelope.flags = wall_facts.size > 0 ? msg::kFlagWallFacts : std::uint16_t{0};
   packet.envelope.epoch = epoch_;
   packet.envelope.publisher = rank_;
-  packet.envelope.topic_id = out.topic_id;
+  packet.envelope.topic_id = topic.topic_id;
   packet.envelope.frame_count =
       static_cast<std::uint32_t>(msg::kFirstArrayFrame + body.arrays.size() + (wall_facts.size > 0 ? 1 : 0));
-  packet.envelope.type_hash = msg::type_hash(ports_.outs()[out_index].type);
-  packet.envelope.seq = published_[out_index]++;
+  packet.envelope.type_hash = msg::type_hash(type);
+  packet.envelope.seq = seq;
   packet.envelope.t_sim_ns = last_.count();
   packet.body = std::move(body);
   packet.wall_facts = std::move(wall_facts);
-  send_(std::move(packet));
+  return packet;
 }
 
 }  // namespace ensonify

@@ -18,6 +18,13 @@ struct OutTopic {
   std::uint32_t topic_id = 0;
 };
 
+/// What reaches viewers, by topic: whether somebody watches one, and where a message for them goes.
+struct Viewers {
+  std::function<bool(const std::string& topic)> watched;
+  std::function<void(msg::Packet&&)> send;
+  std::function<bool()> late;  // Ports::late
+};
+
 /// Runs one node's events in sim time: delivers what is due in the one order that does not depend on arrival, steps,
 /// stamps and numbers what is published. Knows no socket and no wall time; the same for every bus.
 class Stepper {
@@ -29,7 +36,7 @@ class Stepper {
 
   /// Before the first event: who feeds us, what our outputs are called, and where they go.
   void wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map<std::string, std::string> facts,
-            std::uint32_t epoch, std::uint32_t rank, Send send);
+            std::uint32_t epoch, std::uint32_t rank, Send send, Viewers viewers = {});
 
   /// A message has arrived; in order per topic. Throws PeerError on a gap in its topic's seq.
   void insert(const msg::Packet& packet);
@@ -57,6 +64,9 @@ class Stepper {
 
   void deliver_due(SimTime now);
   void publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts);
+  LivePlane live_plane();
+  msg::Packet packet_of(const OutTopic& topic, const std::string& type, std::uint64_t seq, msg::Body body,
+                        msg::Buffer wall_facts) const;
 
   Ports& ports_;
   Step step_;
@@ -67,6 +77,9 @@ class Stepper {
   std::vector<OutTopic> outs_;
   std::vector<std::uint64_t> published_;
   std::vector<RateLimit> limits_;  // of each output
+  Viewers viewers_;
+  std::vector<OutTopic> lives_;       // of each port for viewers
+  std::vector<std::uint64_t> shown_;  // messages to viewers, on each
   SimTime next_{0};
   SimTime last_{-1};
 };

@@ -253,7 +253,8 @@ class Wirer {
 }  // namespace
 
 Declaration declaration_of(const std::string& component, const Ports& ports) {
-  return {ports.process(), component, ports.outs(), ports.ins(), ports.declares_finish(), ports.declares()};
+  return {ports.process(),         component,        ports.outs(), ports.ins(),
+          ports.declares_finish(), ports.declares(), ports.lives()};
 }
 
 Graph wire(const std::vector<Declaration>& processes, const std::vector<WireRule>& rules,

@@ -9,6 +9,9 @@
 
 namespace ensonify {
 
+/// Topic id of what no participant can read.
+inline constexpr std::uint32_t kNoTopicId = 0xFFFFFFFF;
+
 /// The ports of one process, as it declares them; the position in the list of processes is its rank.
 struct Declaration {
   std::string process;
@@ -17,6 +20,7 @@ struct Declaration {
   std::vector<InPort> ins;
   bool may_finish = false;
   std::map<std::string, msg::Value> declares = {};  // Ports::declare, by type
+  std::vector<LivePort> lives = {};                 // for viewers: in no graph
 };
 
 /// Declaration of a process to the others.

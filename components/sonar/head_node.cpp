@@ -21,11 +21,13 @@ HeadInputs::Start inputs_of(const HeadConfig& config, const HeadPlan& plan) {
   return start;
 }
 
+std::string axis_name(BeamAxis axis) { return axis == BeamAxis::kForward ? "forward" : "down"; }
+
 msg::HeadDeclaration declaration_of(const std::string& kind, const HeadConfig& config, const HeadPlan& plan) {
   msg::HeadDeclaration head;
   head.kind = kind;
   head.instrument = plan.instrument;
-  head.beam_axis = plan.beam_axis == BeamAxis::kForward ? "forward" : "down";
+  head.beam_axis = axis_name(plan.beam_axis);
   head.finest_beam_rad = plan.finest_beam_rad;
   head.near_field_m = plan.near_field_m;
   double range_m = 0.0;

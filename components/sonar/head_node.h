@@ -11,6 +11,7 @@
 #include "components/sonar/head_config.h"
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/ping_cycle.h"
+#include "components/sonar/ping_pictures.h"
 #include "components/sonar/surroundings.h"
 #include "kernels/base/profile/profile.h"
 
@@ -18,6 +19,8 @@ namespace ensonify {
 
 /// Axis of a head's frame from which the angles of its beams are counted, positive to starboard.
 enum class BeamAxis { kDown, kForward };
+
+std::string axis_name(BeamAxis axis);
 
 /// Plan of a head: what follows from its parameters before the run.
 struct HeadPlan {
@@ -52,6 +55,7 @@ struct HeadReport {
   std::tuple<std::optional<M>...> messages;
   bool seabed_in_range = true;  // a ray hit it
   std::string trouble = {};     // else, for health; "" when all is well
+  bool for_viewers = false;     // the ping/1 among the messages is for their picture alone
 };
 
 /// Channel that could only receive noise.
@@ -112,6 +116,7 @@ class HeadNode {
     std::string name;  // "": the only one
     Head head;
     Outs outs;
+    std::optional<PingPictures> pictures = {};
     std::deque<Sent> under_way = {};
   };
 
@@ -119,16 +124,19 @@ class HeadNode {
       : config_(config), inputs_(ports, inputs_of(config, plan)), cycle_(ports, inputs_, config.timing()) {
     for (const HeadInputs::Channel& planned : plan.channels) {
       Channel& channel = channels_.emplace_back(config_, channels_.size(), planned.name);
-      declare(channel, config.timing().rate, ports);
+      declare(channel, plan, config.timing().rate, ports);
       if constexpr (requires { channel.head.connect(ports); }) channel.head.connect(ports);
     }
     ports.declare(declaration_of(kComponent, config, plan));
   }
 
-  void declare(Channel& channel, Rate rate, Ports& ports) {
+  void declare(Channel& channel, const HeadPlan& plan, Rate rate, Ports& ports) {
     const auto declare = [&]<msg::Message M>(const HeadOutput<M>& output, std::optional<Ports::Out<M>>& out) {
-      const std::string port = channel.name.empty() ? output.port : output.port + "_" + channel.name;
-      if (output.declared) out = ports.out<M>(port, {.max_bytes = output.max_bytes, .rate = rate});
+      const std::string behind = channel.name.empty() ? "" : "_" + channel.name;
+      if (output.declared) out = ports.out<M>(output.port + behind, {.max_bytes = output.max_bytes, .rate = rate});
+      if constexpr (std::is_same_v<M, msg::Ping>)
+        if (output.declared)
+          channel.pictures.emplace(ports, "view" + behind, output.max_bytes, axis_name(plan.beam_axis));
     };
     for_pairs(channel.head.outputs(), channel.outs, declare);
   }
@@ -151,21 +159,39 @@ class HeadNode {
     for (Channel& channel : channels_) {
       const Sent sent = std::move(channel.under_way.front());
       channel.under_way.pop_front();
-      auto report = channel.head.ping(ping.event(sector), sent, surroundings());
+      PingEvent event = ping.event(sector);
+      event.picture = channel.pictures && channel.pictures->wanted();
+      auto report = channel.head.ping(event, sent, surroundings());
       sector += sent.sectors.size();
 
-      for_pairs(report.messages, channel.outs, [&](auto& message, auto& out) {
+      for_pairs(report.messages, channel.outs, [&]<msg::Message M>(std::optional<M>& message, auto& out) {
         if (!message || !out) return;
         if constexpr (requires { message->track; }) {
           inputs_.fill_track(message->track, ping.transmit, sent.sectors.front().reception);
         }
+        if (std::is_same_v<M, msg::Ping> && report.for_viewers) return;
         const profile::Span span(profile::Stage::kMessage);
         out->send(*message);
       });
+      if (event.picture) show(report.messages, *channel.pictures);
       if (!report.seabed_in_range) silent.push_back({channel.name, sent.sectors.front().settings.range_m});
       if (trouble.empty()) trouble = report.trouble;
     }
     cycle_.published(silent.empty() ? trouble : no_seabed_reason(silent));
+  }
+
+  /// The ping's picture, with the soundings of heads that have them.
+  template <class Messages>
+  static void show(const Messages& messages, PingPictures& pictures) {
+    const msg::Ping* ping = nullptr;
+    const msg::Soundings* soundings = nullptr;
+    const auto note = [&]<msg::Message M>(const std::optional<M>& message) {
+      if (!message) return;
+      if constexpr (std::is_same_v<M, msg::Ping>) ping = &*message;
+      if constexpr (std::is_same_v<M, msg::Soundings>) soundings = &*message;
+    };
+    std::apply([&](const auto&... all) { (note(all), ...); }, messages);
+    if (ping != nullptr) pictures.show(*ping, soundings);
   }
 
   /// act(a, b) of the elements of two tuples, in their order.

@@ -36,6 +36,7 @@ struct PingEvent {
   SimTime transmit{0};
   double range_m = 0.0;
   std::vector<echo::InterferingTransmission> interfering = {};  // what other heads send meanwhile
+  bool picture = false;  // its samples are wanted by viewers: nothing but for_viewers may follow from it
 
   std::uint64_t number() const { return static_cast<std::uint64_t>(ping); }  // as random draws count pings
 };

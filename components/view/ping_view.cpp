@@ -1,6 +1,7 @@
 #include "components/view/ping_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -78,6 +79,22 @@ void fill_cells(std::span<const Sample> samples, const Power& power, std::size_t
 
 float level_db(float power) { return kDbOfLn * fast_math::log(power); }
 
+/// Levels of `powers` (beam x cell), above the floor that fits the strongest.
+void set_levels(msg::View& view, std::size_t beams, std::span<const float> powers) {
+  view.level = msg::Array<std::uint8_t>({beams, powers.size() / beams});
+  const float most = *std::max_element(powers.begin(), powers.end());
+  if (most <= 0.0F) return;
+  const double floor_db = 10.0 * std::ceil((static_cast<double>(level_db(most)) - 127.0) / 10.0);
+  view.level_floor_db = floor_db;
+  const float steps_per_ln = kDbOfLn / static_cast<float>(view.level_step_db);
+  const float first = 1.5F - static_cast<float>(floor_db / view.level_step_db);  // 1 for the floor, and half to round
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (powers[i] <= 0.0F) continue;
+    const float value = steps_per_ln * fast_math::log(powers[i]) + first;
+    view.level[i] = static_cast<std::uint8_t>(std::clamp(value, 1.0F, 255.0F));
+  }
+}
+
 }  // namespace
 
 msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const PictureWish& wish) {
@@ -123,19 +140,43 @@ msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const Pic
   if (ping.track.pose_enu_from_head.size() >= 4)
     std::copy_n(ping.track.pose_enu_from_head.data(), 4, view.enu_from_head.begin());
 
-  view.level = msg::Array<std::uint8_t>({beams, cells});
-  const float most = *std::max_element(powers.begin(), powers.end());
-  if (most <= 0.0F) return view;
-  const double floor_db = 10.0 * std::ceil((static_cast<double>(level_db(most)) - 127.0) / 10.0);
-  view.level_floor_db = floor_db;
-  const float steps_per_ln = kDbOfLn / static_cast<float>(view.level_step_db);
-  const float first = 1.5F - static_cast<float>(floor_db / view.level_step_db);  // 1 for the floor, and half to round
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    if (powers[i] <= 0.0F) continue;
-    const float value = steps_per_ln * fast_math::log(powers[i]) + first;
-    view.level[i] = static_cast<std::uint8_t>(std::clamp(value, 1.0F, 255.0F));
-  }
+  set_levels(view, beams, powers);
   return view;
+}
+
+msg::View view_as(const msg::View& view, const PictureWish& wish) {
+  const std::size_t beams = view.level.rows();
+  const std::size_t fine = view.level.cols();
+  const std::size_t block = (fine + wish.cells - 1) / wish.cells;
+  if (beams == 0 || (block <= 1 && wish.spreading_db == 0.0 && wish.absorption_dbpm == 0.0)) return view;
+  const std::size_t cells = (fine + block - 1) / block;
+  std::array<float, 256> power_of{};
+  for (std::size_t value = 1; value < power_of.size(); ++value) {
+    const double level_db = view.level_floor_db + static_cast<double>(value - 1) * view.level_step_db;
+    power_of[value] = static_cast<float>(std::pow(10.0, level_db / 10.0));
+  }
+  std::vector<float> gain(fine);
+  for (std::size_t i = 0; i < fine; ++i) {
+    const double middle_m = view.first_range_m + (static_cast<double>(i) + 0.5) * view.cell_m;
+    const double held_m = std::max(middle_m, kNearestGain_m);
+    gain[i] = static_cast<float>(
+        std::pow(10.0, (wish.spreading_db * std::log10(held_m) + 2.0 * wish.absorption_dbpm * held_m) / 10.0));
+  }
+  std::vector<float> powers(beams * cells);
+  for (std::size_t beam = 0; beam < beams; ++beam) {
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const std::size_t end = std::min((cell + 1) * block, fine);
+      float sum = 0.0F;
+      for (std::size_t i = cell * block; i < end; ++i) sum += power_of[view.level(beam, i)] * gain[i];
+      powers[beam * cells + cell] = sum / static_cast<float>(end - cell * block);
+    }
+  }
+  msg::View other = view;
+  other.cell_m = static_cast<double>(block) * view.cell_m;
+  other.added_spreading_db += wish.spreading_db;
+  other.added_absorption_dbpm += wish.absorption_dbpm;
+  set_levels(other, beams, powers);
+  return other;
 }
 
 void add_finds(msg::View& view, const msg::Soundings& soundings) {

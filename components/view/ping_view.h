@@ -32,6 +32,11 @@ struct PictureWish {
 /// Throws NoPicture where there are no samples, where shapes do not fit, or where samples have no range.
 msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const PictureWish& wish);
 
+/// A picture as a viewer wishes it: neighbouring cells become one, in power, where there are more than `wish.cells`,
+/// and the gain that is wished is added at each cell's middle. Cells stay means or peaks, as they are. Levels are
+/// rounded anew: they lie within half a decibel of what view_of would have made of the ping.
+msg::View view_as(const msg::View& view, const PictureWish& wish);
+
 /// Adds the valid detections of the same ping.
 void add_finds(msg::View& view, const msg::Soundings& soundings);
 

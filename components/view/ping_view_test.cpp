@@ -121,6 +121,25 @@ TEST_CASE("a ping without picture says why") {
   CHECK_THROWS_WITH(view_of(ping, "down", {}), "no samples were published with this ping");
 }
 
+TEST_CASE("a picture becomes narrower, and gets its gain, as if it were made anew of the ping") {
+  msg::Ping ping = even_ping(640);
+  for (std::size_t i = 0; i < 640; ++i)
+    ping.amplitude_upa(1, i) = 100.0F * (1.0F + 0.9F * std::sin(0.13F * static_cast<float>(i)));
+  const msg::View fine = view_of(ping, "down", {640, false});
+  const PictureWish wish{40, false, 30.0, 0.02};
+  const msg::View made = view_as(fine, wish);
+  const msg::View anew = view_of(ping, "down", wish);
+  REQUIRE(made.level.shape() == anew.level.shape());
+  CHECK(made.cell_m == anew.cell_m);
+  CHECK(made.first_range_m == anew.first_range_m);
+  CHECK(made.added_spreading_db == 30.0);
+  CHECK(made.added_absorption_dbpm == 0.02);
+  for (std::size_t beam = 0; beam < 3; ++beam)
+    for (std::size_t cell = 0; cell < 40; ++cell)
+      CHECK_THAT(level_of(made, beam, cell), WithinAbs(level_of(anew, beam, cell), 0.5001));
+  CHECK(view_as(fine, {1024, false}).level.shape() == fine.level.shape());
+}
+
 TEST_CASE("valid detections stand at their ranges") {
   msg::Soundings soundings;
   soundings.valid = msg::Array<std::uint8_t>::of({1, 0, 1, 1});

@@ -99,6 +99,17 @@ class Run(SystemTest):
         at = self.console(wrong, "--out", self.folder / "out2")
         self.assertEqual(at.process.wait(60), 2)
 
+    def test_after_the_run_it_says_once_more_what_to_open_and_serves_the_record(self):
+        at = self.console(self.launch(3), "--out", self.folder / "out", "--free", "--stay")
+        lines = [at.process.stdout.readline() for _ in range(2)]
+        self.assertEqual(lines, ["the run has ended, exit code 0; Ctrl-C ends the console\n", f"open this URL: {at.view}\n"])
+        viewer = Viewer(at.view)
+        state = viewer.of("console_state/1").content
+        self.assertEqual((state["kind"], state["name"]), ("record", str(self.folder / "out/run.mcap")))
+        viewer.watch("bow/view", cells=16)
+        viewer.of("view/1", patience_s=20)
+        viewer.close()
+
     def test_nobody_is_told_of_runs_of_others_but_their_names(self):
         run = self.start_launch(self.launch(600), "--rate", "1", "--name", "listed")
         self.wait_for_go()

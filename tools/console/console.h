@@ -40,6 +40,8 @@ class Console {
   /// The desk of an item, opened if need be. Throws UserError.
   std::shared_ptr<Desk> desk(const std::string& id);
   const std::string& first() const { return options_.first; }
+  /// For who enters from now on.
+  void set_first(std::string id) { options_.first = std::move(id); }
   std::vector<msg::ConsoleItem> items() const;
   const std::vector<std::string>& launches() const { return options_.launches; }
   const Doors& doors() const { return doors_; }

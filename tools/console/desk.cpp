@@ -50,12 +50,6 @@ bool places_world(const std::string& type) { return type == msg::Chart::kType ||
 /// Where the processes of a run write their logs.
 std::string log_folder(const Source& source) { return source.folder().empty() ? "" : source.folder() + "/log"; }
 
-bool watches_view_of(const Flow& flow, const std::string& head) {
-  const std::string begin = head + "/" + std::string(kView);
-  return std::any_of(flow.watched().begin(), flow.watched().end(),
-                     [&](const msg::ConsoleWatched& watched) { return watched.topic.starts_with(begin); });
-}
-
 }  // namespace
 
 std::string view_topic_of(const std::string& ping_topic) {
@@ -90,11 +84,11 @@ void Desk::ask_source() {
   for (const auto& entry : type_of_) {
     const std::string& topic = entry.first;
     const bool soundings = entry.second == msg::Soundings::kType;
-    const std::string name = entry.second == msg::Ping::kType ? view_topic_of(topic) : topic;
+    const std::string name = makes_view_of(topic, entry.second) ? view_topic_of(topic) : topic;
     const std::string made = soundings ? kCellsTopic : is_track(entry.second) ? kTrackTopic : "";
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
-             (soundings && watches_view_of(*flow, process_of(topic))) ||
+             (soundings && wants_finds(*flow, process_of(topic))) ||
              (places_world(entry.second) && flow->watches(kReliefTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
@@ -108,8 +102,11 @@ void Desk::refresh() {
   state_ = source_->state();
   if (state_.message.empty()) state_.message = fault_;
   type_of_.clear();
+  for (const msg::ConsoleTopic& topic : state_.topics) type_of_[topic.name] = topic.type;
+  std::erase_if(state_.topics, [this](const msg::ConsoleTopic& topic) {
+    return topic.type == msg::Ping::kType && !makes_view_of(topic.name, topic.type);
+  });
   for (msg::ConsoleTopic& topic : state_.topics) {
-    type_of_[topic.name] = topic.type;
     if (topic.type != msg::Ping::kType) continue;
     topic.name = view_topic_of(topic.name);
     topic.type = msg::View::kType;
@@ -219,12 +216,24 @@ void Desk::offer_alarms(WallTime now) {
   for (Flow* flow : viewers_) flow->offer(offer);
 }
 
+bool Desk::makes_view_of(const std::string& topic, const std::string& type) const {
+  return type == msg::Ping::kType && !type_of_.contains(view_topic_of(topic));
+}
+
+/// Detections are added to pictures that are made here; a head's own have them.
+bool Desk::wants_finds(const Flow& flow, const std::string& head) const {
+  const std::string begin = head + "/" + std::string(kView);
+  return std::any_of(flow.watched().begin(), flow.watched().end(), [&](const msg::ConsoleWatched& watched) {
+    return watched.topic.starts_with(begin) && !type_of_.contains(watched.topic);
+  });
+}
+
 void Desk::take(msg::Packet packet, WallTime now) {
   const auto type = type_of_.find(packet.topic);
   if (type == type_of_.end()) return;
   Offer offer{packet.topic, Way::line, nullptr, now};
-  if (type->second == msg::Ping::kType) {
-    offer.topic = view_topic_of(packet.topic);
+  if (makes_view_of(packet.topic, type->second) || type->second == msg::View::kType) {
+    if (type->second == msg::Ping::kType) offer.topic = view_topic_of(packet.topic);
     try {
       if (beams_of(packet) >= kFanBeams) offer.way = Way::picture;
     } catch (const msg::DecodeError&) {
@@ -256,20 +265,29 @@ void Desk::take(msg::Packet packet, WallTime now) {
   for (Flow* flow : viewers_) flow->offer(offer);
 }
 
+msg::View Desk::picture_of(const Sending& sending, const std::string& type) const {
+  const msg::Packet& packet = *sending.offer.packet;
+  if (type == msg::View::kType) return view_as(msg::decode<msg::View>(packet.body, packet.body.size()), sending.wish);
+  const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());
+  const std::string head = process_of(packet.topic);
+  msg::View view = view_of(ping, source_->beam_axis(head), sending.wish);
+  if (const auto finds = finds_.find(head); finds != finds_.end()) {
+    for (const msg::Soundings& soundings : finds->second)
+      if (soundings.ping == ping.ping && soundings.stamp_ns == ping.stamp_ns) add_finds(view, soundings);
+  }
+  return view;
+}
+
 msg::Packet Desk::message_of(const Sending& sending) {
   const msg::Packet& packet = *sending.offer.packet;
   const auto type = type_of_.find(packet.topic);
-  if (type == type_of_.end() || type->second != msg::Ping::kType) return packet;
+  if (type == type_of_.end() || (type->second != msg::Ping::kType && type->second != msg::View::kType)) return packet;
   const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
     return made.of == sending.offer.packet && made.wish == sending.wish;
   });
   if (known != made_.end()) return known->packet;
 
-  const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());
-  const std::string head = process_of(packet.topic);
-  msg::View view = view_of(ping, source_->beam_axis(head), sending.wish);
-  for (const msg::Soundings& soundings : finds_[head])
-    if (soundings.ping == ping.ping && soundings.stamp_ns == ping.stamp_ns) add_finds(view, soundings);
+  const msg::View view = picture_of(sending, type->second);
   msg::Packet picture{sending.offer.topic, packet.envelope, msg::encode(view), {}};
   picture.envelope.type_hash = msg::type_hash(msg::View::kType);
   made_.push_front({sending.offer.packet, sending.wish, picture});

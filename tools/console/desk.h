@@ -20,7 +20,7 @@
 namespace ensonify::console {
 
 /// One source and those who watch it. Every topic of type ping/1 (HEAD/ping...) has a topic of pictures beside it
-/// (HEAD/view...), made when it is sent.
+/// (HEAD/view...): the head's own in a live run, else made when it is sent.
 class Desk {
  public:
   explicit Desk(std::unique_ptr<Source> source);
@@ -43,11 +43,15 @@ class Desk {
   const Logs& logs() const { return logs_; }
   void command(const msg::ConsoleCommand& command) { source_->command(command); }
 
-  /// The message as it is sent: pings as view/1. Throws NoPicture or msg::DecodeError for one that gives no picture.
+  /// The message as it is sent: pings as view/1, and these as wide as they are wished. Throws NoPicture or
+  /// msg::DecodeError for one that gives no picture.
   msg::Packet message_of(const Sending& sending);
 
  private:
   void take(msg::Packet packet, WallTime now);
+  bool makes_view_of(const std::string& topic, const std::string& type) const;
+  bool wants_finds(const Flow& flow, const std::string& head) const;
+  msg::View picture_of(const Sending& sending, const std::string& type) const;
   void refresh();
   void ask_source();
   void watch_disk(WallTime now);
@@ -76,7 +80,7 @@ class Desk {
   std::uint64_t alarms_seq_ = 0;
   WallTime alarms_said_;
   WallTime disk_seen_;
-  std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head
+  std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head, for pictures made here
 
   struct Made {  // the last pictures, for several viewers of one size
     std::shared_ptr<const msg::Packet> of;

@@ -25,9 +25,9 @@ class TestSource : public Source {
     msg::ConsoleState state;
     state.kind = "run";
     state.state = word;
-    state.topics = {{"bow/ping", "ping/1", "bow", ""},
-                    {"side/ping_main", "ping/1", "side", ""},
-                    {"nav/health", "health/1", "nav", ""},
+    state.topics = {{"bow/ping", "ping/1", "bow", ""},           {"side/ping_main", "ping/1", "side", ""},
+                    {"fls/ping", "ping/1", "fls", ""},           {"fls/view", "view/1", "fls", ""},
+                    {"fls/soundings", "soundings/1", "fls", ""}, {"nav/health", "health/1", "nav", ""},
                     {"bow/soundings", "soundings/1", "bow", ""}};
     return state;
   }
@@ -90,7 +90,7 @@ TEST_CASE("alarms and numbers ask for the topics that they are made of") {
   Scene scene;
   scene.desk.add(scene.flow);
   scene.watch({"alarms"});
-  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "nav/health"});
+  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "fls/soundings", "nav/health"});
   msg::ConsoleWatch wish;
   wish.topics = {{"values", 16, false, 0.0, 0.0}};
   wish.values = {"bow/ping.pings_per_s", "no/topic.x"};
@@ -148,6 +148,31 @@ TEST_CASE("pings become pictures of the size that is watched, two sides lines, a
   const auto view = msg::decode<msg::View>(sent.body, sent.body.size());
   CHECK(view.level.shape() == std::vector<std::size_t>{5, 15});
   CHECK(view.beam_axis == "forward");
+}
+
+TEST_CASE("a head's own pictures are taken, made as wide as they are watched, and no other is made") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"fls/view"});
+  CHECK(scene.wanted == std::set<std::string>{"fls/view"});
+  const auto& topics = scene.desk.state().topics;
+  CHECK(std::count_if(topics.begin(), topics.end(), [](const auto& t) { return t.name == "fls/view"; }) == 1);
+  CHECK(std::none_of(topics.begin(), topics.end(), [](const auto& t) { return t.name == "fls/ping"; }));
+  msg::View made;
+  made.beam_angle_rad = msg::Array<float>({4});
+  made.level = msg::Array<std::uint8_t>({4, 100});
+  for (std::uint8_t& value : made.level.flat()) value = 61;
+  made.level_floor_db = 30.0;
+  made.cell_m = 0.1;
+  scene.said = {{"fls/view", {}, msg::encode(made), {}}};
+  scene.desk.poll(scene.now);
+  const auto picture = scene.flow.next(scene.now);
+  REQUIRE(picture);
+  CHECK(picture->offer.way == Way::picture);
+  const msg::Packet sent = scene.desk.message_of(*picture);
+  const auto view = msg::decode<msg::View>(sent.body, sent.body.size());
+  CHECK(view.level.shape() == std::vector<std::size_t>{4, 15});
+  CHECK(view.level_floor_db + (view.level(2, 3) - 1) * view.level_step_db == 60.0);
 }
 
 TEST_CASE("who comes later gets the states and pictures that there are") {

@@ -65,6 +65,15 @@ void declare(CLI::App& app, Options& options) {
 
 bool is_record(const std::string& target) { return target.ends_with(".mcap") || fs::is_directory(target); }
 
+/// What opens the record in a run's folder; nothing where there is none, or several.
+std::optional<std::string> record_id(const std::string& folder) {
+  try {
+    return "record:" + record::record_path(folder);
+  } catch (const UserError&) {
+    return std::nullopt;
+  }
+}
+
 std::vector<std::string> launch_files() {
   std::vector<std::string> found;
   std::error_code error;
@@ -80,8 +89,9 @@ int serve(const Options& options, std::optional<int>& ended) {
   ConsoleOptions console_options;
   console_options.folder = options.folder;
   console_options.launches = launch_files();
-  console_options.record = {options.own.free ? 0.0 : options.own.rate > 0.0 ? options.own.rate : 1.0, options.loop};
   const bool starts = !options.target.empty() && !is_record(options.target);
+  const double pace = options.own.rate > 0.0 ? options.own.rate : 1.0;
+  console_options.record = {options.own.free && !starts ? 0.0 : pace, options.loop};
   if (!options.folder.empty() && !fs::is_directory(options.folder))
     throw UserError(options.folder + ": is no folder (--folder)");
   if (!options.target.empty() && !starts) {
@@ -119,7 +129,10 @@ int serve(const Options& options, std::optional<int>& ended) {
       console->set_exit_code(*code);
       ended = code;
       if (!stay) return milliseconds(-1);
-      fmt::print(stderr, "ensonify console: the run has ended, exit code {}; Ctrl-C ends the console\n", *code);
+      console->set_first(record_id(options.own.out).value_or(console->first()));
+      fmt::print("the run has ended, exit code {}; Ctrl-C ends the console\nopen this URL: {}\n", *code,
+                 doors.view_url());
+      std::fflush(stdout);
     }
     return milliseconds(console->watched() ? 5 : 50);
   });

@@ -115,6 +115,7 @@ void ask_for_ports(ComponentFacts& facts) {
     const Declaration declaration = protocol::read_declaration(answer.text);
     facts.example = example.process + " in launch/" + fs::path(example.launch).filename().string();
     facts.outs = declaration.outs;
+    facts.lives = declaration.lives;
     facts.ins = declaration.ins;
     facts.declares = declaration.declares;
     facts.no_ports_because.clear();

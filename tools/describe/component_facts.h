@@ -17,6 +17,7 @@ struct ComponentFacts {
   // As an example launch file configures it, for ports follow from parameters.
   std::string example;  // "bow in launch/demo.yaml"; "" if no launch file uses the component
   std::vector<OutPort> outs;
+  std::vector<LivePort> lives;
   std::vector<InPort> ins;
   std::map<std::string, msg::Value> declares;
   std::string no_ports_because;  // why the program could not report its ports

@@ -39,6 +39,9 @@ void print_ports(const ComponentFacts& facts) {
   for (const OutPort& port : facts.outs) {
     fmt::print("  out {:<14} {:<18} at most {:g} Hz, {} bytes\n", port.port, port.type, port.rate.hz(), port.max_bytes);
   }
+  for (const LivePort& port : facts.lives) {
+    fmt::print("  out {:<14} {:<18} to viewers alone, {} bytes\n", port.port, port.type, port.max_bytes);
+  }
   for (const InPort& port : facts.ins) {
     const std::string delay = delay_text(port.delay);
     fmt::print("  in  {:<14} {:<18} {}{}{}\n", port.port, port.type == "*" ? "any" : port.type,
@@ -58,6 +61,9 @@ Json ports_json(const ComponentFacts& facts) {
   for (const OutPort& port : facts.outs) {
     json["out"].push_back(
         {{"port", port.port}, {"type", port.type}, {"max_bytes", port.max_bytes}, {"rate_hz", port.rate.hz()}});
+  }
+  for (const LivePort& port : facts.lives) {
+    json["live_only"].push_back({{"port", port.port}, {"type", port.type}, {"max_bytes", port.max_bytes}});
   }
   for (const InPort& port : facts.ins) {
     json["in"].push_back({{"port", port.port},

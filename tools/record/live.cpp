@@ -27,7 +27,7 @@ constexpr int kQueue = 100;                           // messages per publisher
 constexpr std::size_t kHoldBytes = 512U << 20U;       // then the oldest is written, whatever may still come
 constexpr std::chrono::milliseconds kLookAfter{200};  // for Ctrl-C
 
-/// The topics asked for, by id; the clock's own stands behind those of the participants and is in no record.
+/// The topics asked for, by id; those for viewers alone stand behind the others and are in no record.
 std::map<std::uint16_t, TopicEntry> chosen(const RunRegistry& registry, const std::vector<std::string>& wanted) {
   std::map<std::uint16_t, TopicEntry> topics;
   std::vector<bool> used(wanted.size());
@@ -38,7 +38,7 @@ std::map<std::uint16_t, TopicEntry> chosen(const RunRegistry& registry, const st
       if (!topic_matches(wanted[i], topic.name)) continue;
       used[i] = take = true;
     }
-    if (take && topic.publisher != "clock") topics.emplace(static_cast<std::uint16_t>(id), topic);
+    if (take && !topic.live_only) topics.emplace(static_cast<std::uint16_t>(id), topic);
   }
   const auto unused = std::find(used.begin(), used.end(), false);
   if (unused != used.end())

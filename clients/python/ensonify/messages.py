@@ -1822,6 +1822,7 @@ class View(Message):
     added_absorption_dbpm [dB/m]: absorption A of the gain that was added
     position_enu_m [m]: estimated place of the head at transmission: east, north, up from chart datum
     enu_from_head [1]: estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known
+    left_out [1]: number of pictures that were left out so far because the run waited for the head
     find_angle_rad [rad]: beam axes of the ping's valid detections; empty: none are known
     find_range_m [m]: slant range of each of these detections, by the head's own sound speed
     find_kind [1]: kind of each of these detections: 1 by amplitude, 2 by phase, 0 neither
@@ -1850,6 +1851,7 @@ class View(Message):
     added_absorption_dbpm: float = 0.0
     position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
     enu_from_head: tuple = fixed(0.0, 0.0, 0.0, 0.0)
+    left_out: int = 0
     find_angle_rad: np.ndarray = array("f4")
     find_range_m: np.ndarray = array("f4")
     find_kind: np.ndarray = array("u1")

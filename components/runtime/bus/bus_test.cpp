@@ -7,6 +7,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/bus/link.h"
+#include "components/runtime/bus/observer.h"
 #include "components/runtime/bus/router.h"
 #include "components/runtime/bus/sockets.h"
 #include "messages/motion.h"
@@ -224,6 +225,36 @@ TEST_CASE("frames are made only for subscribed topics, and held until the flush"
   CHECK(owner.use_count() == alone + 1);
   pair.publisher.flush();
   pair.subscriber.wait_arrived({{3, 1}});
+  CHECK(pair.subscriber.take().size() == 1);
+}
+
+TEST_CASE("what is for viewers alone reaches them, is watched while they are there, and no participant gets it") {
+  Pair pair(false);
+  msg::Packet packet = packet_of(tile_of(3));
+  packet.topic = "pager/tile";  // the subscriber's
+  CHECK_FALSE(pair.publisher.is_watched("pager/tile"));
+  pair.publisher.publish_live(packet);
+  std::optional<bus::Observer> observer(
+      std::in_place, std::vector<bus::Observer::Topic>{{"pager/tile", pair.publisher.live_endpoint()}});
+  const auto until = [&](bool watched) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    do pair.publisher.flush();  // asks again who is there
+    while (pair.publisher.is_watched("pager/tile") != watched && std::chrono::steady_clock::now() < deadline);
+    return pair.publisher.is_watched("pager/tile") == watched;
+  };
+  REQUIRE(until(true));
+  CHECK_FALSE(pair.publisher.is_watched("pager/til"));
+  packet.envelope.seq = 7;
+  pair.publisher.publish_live(packet);
+  const auto seen = observer->next(std::chrono::steady_clock::now() + std::chrono::seconds(20));
+  REQUIRE(seen);
+  CHECK(seen->envelope.seq == 7);
+  observer.reset();
+  CHECK(until(false));
+  packet.envelope.seq = 0;
+  pair.publisher.publish(packet);
+  pair.publisher.flush();
+  pair.subscriber.wait_arrived({{3, 1}});  // the first that it gets
   CHECK(pair.subscriber.take().size() == 1);
 }
 

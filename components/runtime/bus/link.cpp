@@ -28,6 +28,11 @@ struct Link::Sockets {
     if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
   }
 
+  void poll_viewers() {
+    if (!polled_viewers) viewers.read(live);
+    polled_viewers = true;
+  }
+
   zmq::context_t context{1};
   std::optional<Keys> keys;
   std::optional<Gate> gate;
@@ -102,10 +107,19 @@ void Link::expect_until(SimTime t) { receiver_->expect_until(t); }
 
 std::vector<msg::Packet> Link::take() { return receiver_->take(); }
 
+bool Link::is_watched(const std::string& topic) {
+  sockets_->poll_viewers();
+  return sockets_->viewers.has_subscriber(topic);
+}
+
+void Link::publish_live(const msg::Packet& packet) {
+  std::vector<zmq::message_t> frames = to_frames(packet);
+  send_frames(sockets_->live, frames);
+}
+
 void Link::publish(const msg::Packet& packet) {
   Sockets& s = *sockets_;
-  if (!s.polled_viewers) s.viewers.read(s.live);
-  s.polled_viewers = true;
+  s.poll_viewers();
   const bool subscribed = s.participants.has_subscriber(packet.topic);
   if (!subscribed && s.viewers.empty()) return;
 

@@ -87,6 +87,11 @@ class Link {
   void publish(const msg::Packet& packet);
   void flush();
 
+  /// Whether an observer has subscribed to this topic.
+  bool is_watched(const std::string& topic);
+  /// To observers alone.
+  void publish_live(const msg::Packet& packet);
+
  private:
   struct Sockets;
   std::unique_ptr<Sockets> sockets_;

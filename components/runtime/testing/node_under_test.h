@@ -99,6 +99,13 @@ class NodeUnderTest {
     if (stepper_.run_to(t)) finished_ = true;
   }
 
+  /// From now on somebody watches the ports for viewers, and the run waits for this node or not. What they get is taken
+  /// as what is published.
+  void watch(bool late = false) {
+    watched_ = true;
+    late_ = late;
+  }
+
   /// Packets published on `port` since it was last asked for.
   std::vector<msg::Packet> take(const std::string& port) { return std::exchange(published_["test/" + port], {}); }
 
@@ -121,8 +128,9 @@ class NodeUnderTest {
     std::vector<OutTopic> outs;
     for (const OutPort& out : ports_.outs())
       outs.push_back({"test/" + out.port, static_cast<std::uint32_t>(outs.size())});
-    stepper_.wire(feeds_, std::move(outs), {}, 1, 1,
-                  [this](msg::Packet&& packet) { published_[packet.topic].push_back(std::move(packet)); });
+    const auto keep = [this](msg::Packet&& packet) { published_[packet.topic].push_back(std::move(packet)); };
+    stepper_.wire(feeds_, std::move(outs), {}, 1, 1, keep,
+                  {[this](const std::string&) { return watched_; }, keep, [this] { return late_; }});
   }
 
   Ports ports_;
@@ -133,6 +141,8 @@ class NodeUnderTest {
   std::map<std::string, std::vector<msg::Packet>> published_;
   bool started_ = false;
   bool finished_ = false;
+  bool watched_ = false;
+  bool late_ = false;
 };
 
 }  // namespace ensonify
