@@ -21,6 +21,7 @@ from drive_bench import bench_drive
 from environment_bench import bench_environment
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
+from labels_bench import bench_labels
 from logger_bench import bench_logger
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
@@ -41,7 +42,7 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "logger": bench_logger,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "labels": bench_labels, "logger": bench_logger,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "kernels": bench_kernels}
 

@@ -13,14 +13,14 @@ std::atomic<int> allocations{0};
 
 }  // namespace
 
-// Every `new` of this program, from whichever thread.
-void* operator new(std::size_t size) {
+// Every `new` of this program, from whichever thread. Not inline: GCC 12 would take an inlined pair for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 using namespace ensonify;
 

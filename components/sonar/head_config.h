@@ -143,7 +143,7 @@ struct HeadParameters {
     visit("trigger", "trigger of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);
     visit("effects", "each can be switched off alone; no other random draw moves", self.effects);
-    visit("speckle_seed", "1", any(),
+    visit("speckle_seed", "", any(),
           "seed of speckle and noise, apart from that of the scene; 0: the scenario's, for both", self.speckle_seed);
   }
   /// Labels of a head that can make them.

@@ -1,8 +1,10 @@
 """Labels of a run: where geometry says, in place of the levels, and written as files by the command."""
 import json
+import os
 import subprocess
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -10,7 +12,8 @@ import ensonify
 from ensonify import labels
 from ensonify.labels import energies
 from ensonify.labels.dataset import Dataset
-from support import SOURCE, SystemTest
+from ensonify.labels.live import Live
+from support import BIN, SOURCE, SystemTest
 
 
 def rotation(wxyz):
@@ -38,9 +41,8 @@ class Labels(SystemTest):
 
     def test_energies_of_a_run(self):
         """The mean of |p|^2 over pings that stand still but for speckle is what was expected; an object's response lies on its mask."""
-        result = self.run_launch(SOURCE / "launch/targets.yaml", "--free", "--set", "processes.eye.config.labels=energies",
-                                 "--set", "processes.recorder.config.topics=[eye/ping, eye/labels, eye/energies]", "--arg", "seconds=3",
-                                 timeout=300)
+        result = self.run_launch(SOURCE / "launch/targets.yaml", "--free", "--set", "eye.labels=energies",
+                                 "--set", "recorder.topics=[eye/ping, eye/labels, eye/energies]", timeout=300)
         self.assertEqual(result.code, 0, result.stderr)
         with ensonify.Record(result.out / "targets.mcap") as record:
             pairs = list(labels.labelled(record, "eye/ping", energies=True))
@@ -65,6 +67,21 @@ class Labels(SystemTest):
         run = subprocess.run(command, capture_output=True, text=True, timeout=120)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(json.loads(run.stdout)["pictures"], len(pairs))
+
+    def test_a_live_data_set_repeats_no_scene(self):
+        live = Live(SOURCE / "launch/object_training.yaml", "side/ping_main", ["clutter", "mine-like"], scenes=2, lines=64,
+                    set={"side.quality": 0.05})
+        with mock.patch.dict(os.environ, {"ENSONIFY_BIN": str(BIN)}):
+            first, second = list(live), list(live)
+            again = list(Live(live.launch, live.topic, live.names, scenes=2, lines=64, set={"side.quality": 0.05}))
+        self.assertGreater(len(first), 4)
+        self.assertGreater(sum(len(sample.boxes) for sample in first), 5)
+        names = [sample.name for sample in first + second]
+        self.assertEqual(len(set(names)), len(names))
+        for one, other in zip(first, again):
+            np.testing.assert_array_equal(one.image, other.image)
+        with mock.patch.dict(os.environ, {"ENSONIFY_BIN": str(BIN)}), self.assertRaisesRegex(ensonify.RunError, "names has mine-like"):
+            list(Live(live.launch, live.topic, ["mine-like"], scenes=1))
 
     def check_places(self, ping, of, pose, objects):
         """The middle of what is visible lies in the mask at its range and azimuth, and near the object's own middle."""

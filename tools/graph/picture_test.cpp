@@ -69,9 +69,18 @@ TEST_CASE("a live run's registry gives the same picture as its launch file") {
   RunRegistry registry;
   registry.processes = {{"boat", "vehicle"}, {"pilot", "pilot"}, {"bow", "multibeam"}};
   registry.topics = {
-      {"boat/pose", "pose/1", "boat", "vehicle", 512, {100, 1}, "", 7, {{"pilot", "pose", 0_s}, {"bow", "pose", 0_s}}},
-      {"pilot/command", "guidance/1", "pilot", "pilot", 4096, {10, 1}, "", 1, {{"boat", "command", 100_ms}}},
-      {"bow/ping", "ping/1", "bow", "multibeam", 2'100'000, {0, 1}, "", 0, {}}};
+      {"boat/pose",
+       "pose/1",
+       "boat",
+       "vehicle",
+       512,
+       {100, 1},
+       "",
+       false,
+       7,
+       {{"pilot", "pose", 0_s}, {"bow", "pose", 0_s}}},
+      {"pilot/command", "guidance/1", "pilot", "pilot", 4096, {10, 1}, "", false, 1, {{"boat", "command", 100_ms}}},
+      {"bow/ping", "ping/1", "bow", "multibeam", 2'100'000, {0, 1}, "", false, 0, {}}};
   CHECK(to_text(picture_of(registry)) == to_text(from_launch));
   CHECK(to_dot(picture_of(registry)) == to_dot(from_launch));
 }
