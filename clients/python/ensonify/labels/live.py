@@ -33,18 +33,18 @@ class Live(IterableDataset):
     names: classes; others than these are refused
     scenes: runs of an epoch, each with a seed of its own; loader workers share them
     seed: of the seeds; another one gives other scenes. Workers of a DataLoader draw theirs from torch.manual_seed
-    set: parameters of every run, as `--set`
+    args, set: arguments and parameters of every run, as `--arg` and `--set`
     view, lines: as ensonify.labels.pictures.pictures
     transform: from a Sample to an item
 
     While one scene is read, the next is rendered. Raises RunError for a launch that cannot be run."""
 
     def __init__(self, launch: str | Path, topic: str, names: Sequence[str], *, scenes: int, seed: int = 0,
-                 set: Mapping[str, Any] | None = None, view: str = "polar", lines: int = 256, transform: Callable | None = None):
+                 args: Mapping[str, Any] | None = None, set: Mapping[str, Any] | None = None, view: str = "polar", lines: int = 256, transform: Callable | None = None):
         if scenes < 1:
             raise ValueError(f"scenes is {scenes}; allowed is 1 or more")
         self.launch, self.topic, self.names = Path(launch), topic, list(names)
-        self._scenes, self._seed, self._set = scenes, seed, dict(set or {})
+        self._scenes, self._seed, self._args, self._set = scenes, seed, dict(args or {}), dict(set or {})
         self._view, self._lines, self._transform = view, lines, transform
         self._epoch = 0
 
@@ -69,8 +69,8 @@ class Live(IterableDataset):
         """Samples of a scene."""
         with tempfile.TemporaryDirectory(prefix="ensonify-live-") as out:
             words = [program(), "run", str(self.launch), "--free", "--quiet", "--out", out]
-            for assignment in assignments({**self._set, "seed": seed}):
-                words += ["--set", assignment]
+            for option, settings in (("--arg", self._args), ("--set", {**self._set, "seed": seed})):
+                words += [word for assignment in assignments(settings) for word in (option, assignment)]
             run = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL)
             if run.returncode not in DONE:
                 raise RunError(f"{self.launch}, seed {seed}: exit code {run.returncode}: {run.stderr.strip()}", run.returncode)
