@@ -171,6 +171,23 @@ TEST_CASE("empty pictures, classes and kinds have their shares, of few pictures 
   CHECK_THAT(count["ball"], WithinAbs(50, 4));
 }
 
+TEST_CASE("no slot of a scene has a kind of its own, nor has a split") {
+  const Recipe recipe = recipe_of(kGood + "samples: 4\nempty_share: 0.5\npicture: { chip: {} }\n");
+  std::array<int, 4> full{};
+  std::map<std::string, int> scenes, of_split;
+  for (std::uint64_t scene = 0; scene < 400; ++scene) {
+    ++scenes[split_of(recipe, scene)];
+    for (std::uint64_t slot = 0; slot < 4; ++slot) {
+      if (!kind_of(recipe, 4 * scene + slot)) continue;
+      ++full[slot];
+      ++of_split[split_of(recipe, scene)];
+    }
+  }
+  // Each scene has two objects, in slots as drawn: 200 of a slot, with a deviation of 10.
+  for (const int count : full) CHECK_THAT(count, WithinAbs(200, 40));
+  for (const auto& [split, count] : scenes) CHECK_THAT(of_split[split], WithinAbs(2.0 * count, 0.1 * count));
+}
+
 TEST_CASE("scenes are split by their shares, and a split without a scene is named") {
   const Recipe recipe = recipe_of(kGood);
   std::map<std::string, int> count;

@@ -218,13 +218,17 @@ double draw_number(const Drawn& from, const std::string& path, const Counter& at
 }
 
 std::array<double, 2> even(std::uint64_t seed, std::uint64_t number) {
-  constexpr std::array kSteps{0.7548776662466927,
-                              0.5698402909980532};  // 1 / p and 1 / p^2 of p^3 = p + 1 [Roberts2018]
-  const random::Stream start(seed, "dataset/even");
+  constexpr double kFinest = 1e-12;
+  const random::Stream orders(seed, "dataset/even");
   std::array<double, 2> place{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const double x = start.uniform(i) + kSteps[i] * static_cast<double>(number);
-    place[i] = x - std::floor(x);
+  for (std::uint64_t i = 0; i < 2; ++i) {
+    const std::uint64_t base = 2 + i;
+    std::uint64_t block = number, depth = 0;  // its block at each size, smallest first
+    for (double step = 1.0 / static_cast<double>(base); step > kFinest; step /= static_cast<double>(base), ++depth) {
+      const std::uint64_t digit = block % base;
+      block /= base;
+      place[i] += step * static_cast<double>((digit + orders.bits(base, depth, block)[0]) % base);
+    }
   }
   return place;
 }

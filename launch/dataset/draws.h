@@ -49,8 +49,9 @@ ConfigNode draw(const ConfigNode& tree, const std::string& path, const Counter& 
 /// Draws one number. Throws ConfigError where it is none, or lies outside.
 double draw_number(const Drawn& from, const std::string& path, const Counter& at, double lo, double hi);
 
-/// A sequence that fills (0, 1) x (0, 1) evenly: of any n successive ones the share in an interval is right within a
-/// few of n. Its places are drawn by the seed.
+/// Two numbers of a sequence that fills (0, 1) x (0, 1) evenly: of any n successive ones the share in an interval is
+/// right within a few of n. Halton's points of bases 2 and 3 [Halton1960]; within each block of 2^k, or 3^k, they come
+/// in an order that is drawn, so that no step through the sequence has a pattern.
 std::array<double, 2> even(std::uint64_t seed, std::uint64_t number);
 
 }  // namespace ensonify::dataset
