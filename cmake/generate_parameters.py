@@ -1,6 +1,6 @@
 """Writes what follows from lists in the code: default.yaml of every component, the tables between
 `<!-- parameters -->` and `<!-- /parameters -->` of its README, those between `<!-- parameters NAME -->` and the same end
-of other pages (`ensonify describe NAME --table`), and the schemas of launch, scenario and mission files.
+of other pages (`ensonify describe NAME --table`), and the schemas of launch, recipe, scenario and mission files.
 
   generate_parameters.py BIN_FOLDER            rewrites the files
   generate_parameters.py BIN_FOLDER --check    says which files are not what the programs print, exit code 1
@@ -40,7 +40,7 @@ def wanted_files():
         text, tables = filled(page, lambda name: printed("ensonify-describe", name, "--table"))
         if tables:
             yield page, text
-    for kind in ("launch", "scenario", "mission"):
+    for kind in ("launch", "recipe", "scenario", "mission"):
         yield ROOT / f"launch/schema/{kind}.json", printed("ensonify-describe", kind, "--schema")
 
 

@@ -30,6 +30,7 @@ struct Programs {
 const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"run", "start the processes of a launch file and watch over them"},
     {"test", "run launch files as tests, several at once: a table, JUnit"},
+    {"dataset", "labelled pictures by the thousand from a recipe of scenes"},
     {"check", "check a launch file, its configurations and its wiring without running it"},
     {"topic", "list, info, echo, hz and bw of the topics of a live run; pub publishes on one"},
     {"graph", "draw who talks to whom"},

@@ -231,9 +231,10 @@ int test(const Options& options) {
                                           : std::vector<std::string>{"--free"};
   const auto began = std::chrono::steady_clock::now();
   const auto say = [&](const Job& job) {
-    if (options.json) return;
+    if (options.json) return true;
     fmt::print("{}", printable(lines_of(*folder.result_of(job), job, folder, options)));
     std::fflush(stdout);
+    return true;
   };
   for (const Job& job : jobs) {
     if (folder.result_of(job)) say(job);

@@ -96,4 +96,10 @@ std::string id_of(const Launch& launch, const std::string& program_folder) {
   return sum.digest();
 }
 
+std::string id_of(const std::vector<std::string>& words) {
+  Sum sum;
+  for (const std::string& word : words) sum.add(word);
+  return sum.digest();
+}
+
 }  // namespace ensonify::batch

@@ -20,5 +20,7 @@ struct Job {
 /// bytes of every file that they name, the programs that it runs, this version and the processor's vector units
 /// (between which levels differ by 0.01 dB). Pacing, the output folder and the place of the files change nothing.
 std::string id_of(const Launch& launch, const std::string& program_folder);
+/// The same of any words, in their order.
+std::string id_of(const std::vector<std::string>& words);
 
 }  // namespace ensonify::batch

@@ -49,12 +49,12 @@ std::string text_of(const std::string& file) {
 
 class Pool {
  public:
-  Pool(const Folder& folder, const PoolSettings& settings, const std::function<void(const Job&)>& ended)
+  Pool(const Folder& folder, const PoolSettings& settings, const std::function<bool(const Job&)>& ended)
       : folder_(folder), settings_(settings), ended_(ended) {}
 
   bool run(std::deque<const Job*> waiting) {
-    while (!waiting.empty() || !running_.empty()) {
-      while (!interrupted_ && !waiting.empty() && running_.size() < settings_.at_once) {
+    while ((more_ && !waiting.empty()) || !running_.empty()) {
+      while (!interrupted_ && more_ && !waiting.empty() && running_.size() < settings_.at_once) {
         start(*waiting.front());
         waiting.pop_front();
       }
@@ -99,7 +99,7 @@ class Pool {
     const int code = one.timed_out ? Result::kTimedOut : ending.signal != 0 ? int{kExitDied} : ending.exit_code;
     const double wall_s = std::chrono::duration<double>(Clock::now() - one.began).count();
     folder_.done(*one.job, code, text_of(folder_.run_of(*one.job) + "/run.out"), wall_s);
-    ended_(*one.job);
+    more_ = ended_(*one.job) && more_;
   }
 
   void check_time() {
@@ -114,16 +114,16 @@ class Pool {
 
   const Folder& folder_;
   const PoolSettings& settings_;
-  const std::function<void(const Job&)>& ended_;
+  const std::function<bool(const Job&)>& ended_;
   launcher::Signals signals_;  // before anything is forked
   std::vector<Running> running_;
-  bool interrupted_ = false;
+  bool interrupted_ = false, more_ = true;
 };
 
 }  // namespace
 
 bool run_jobs(std::span<const Job> jobs, const Folder& folder, const PoolSettings& settings,
-              const std::function<void(const Job&)>& ended) {
+              const std::function<bool(const Job&)>& ended) {
   std::deque<const Job*> waiting;
   for (const Job& job : jobs) {
     if (!folder.result_of(job)) waiting.push_back(&job);

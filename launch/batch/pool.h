@@ -19,9 +19,9 @@ struct PoolSettings {
 };
 
 /// Runs jobs by `ensonify run`, several at once, in their order, and keeps their results in the folder; those that are
-/// done already are left out. `ended` is called as each ends, in whatever order that is. Ctrl-C ends the runs that are
-/// under way in order, and none is begun after it. Returns whether all came to their end.
+/// done already are left out. `ended` is called as each ends, in whatever order that is, and says whether more are to
+/// begin. Ctrl-C ends the runs that are under way in order, and none is begun after it. Returns false after Ctrl-C.
 bool run_jobs(std::span<const Job> jobs, const Folder& folder, const PoolSettings& settings,
-              const std::function<void(const Job&)>& ended);
+              const std::function<bool(const Job&)>& ended);
 
 }  // namespace ensonify::batch

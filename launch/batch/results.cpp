@@ -99,6 +99,11 @@ void Folder::done(const Job& job, int exit_code, const std::string& run_json, do
   write_whole(run_of(job) + "/result.json", result.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
 }
 
+void Folder::undo(const Job& job) const {
+  std::error_code ignored;
+  fs::remove(run_of(job) + "/result.json", ignored);
+}
+
 void Folder::forget(const std::string& path) {
   const auto plan = ordered_json::parse(text_of(path + "/plan.json"), nullptr, false);
   if (!plan.is_object() || plan.value("ensonify", "") != "plan/1") return;

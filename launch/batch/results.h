@@ -38,6 +38,8 @@ class Folder {
   std::optional<Result> result_of(const Job& job) const;
   /// What `ensonify run --json` said, or nothing where it said nothing. Written to disk before this returns.
   void done(const Job& job, int exit_code, const std::string& run_json, double wall_s) const;
+  /// Its run counts as not done.
+  void undo(const Job& job) const;
   void write_table(const std::vector<Job>& plan) const;
 
   const std::string& path() const { return path_; }

@@ -14,6 +14,7 @@
 #include "components/errors/exit_error.h"
 #include "components/errors/nearest_name.h"
 #include "components/runtime/tool.h"
+#include "launch/dataset/recipe.h"
 #include "launch/file/launch_file.h"
 #include "launch/process/run.h"
 #include "messages/schema.h"
@@ -142,6 +143,7 @@ const msg::TypeInfo* message_named(const std::string& name) {
 /// Keys of a kind of file that users write, or of a part of it: "scenario.water", "mission.steps".
 std::optional<ParameterList> list_of_file(const std::string& name) {
   if (name == "mission.steps") return step_list();
+  if (name == "recipe") return parameters_of<dataset::Recipe>();
   const std::size_t end = std::min(name.find('.'), name.size());
   const std::string file = name.substr(0, end), part = name.substr(std::min(end + 1, name.size()));
   if (file != "scenario" && file != "mission") return std::nullopt;
@@ -204,7 +206,7 @@ int main(int argc, char** argv) {
   bool as_yaml = false, as_json = false, as_schema = false, as_table = false, reference = false;
   app.add_option("NAME", name,
                  "a component or a message type; without it, the list of both. With --schema or --table also launch, "
-                 "scenario, mission, or a part of one: scenario.water");
+                 "recipe, scenario, mission, or a part of one: scenario.water");
   auto* yaml = app.add_flag("--yaml", as_yaml, "only the parameters with their defaults, as a configuration file");
   app.add_flag("--json", as_json, "as JSON; of a message type its JSON Schema")->excludes(yaml);
   auto* schema = app.add_flag("--schema", as_schema, "JSON Schema of the file or the parameters, for editors");
@@ -214,7 +216,8 @@ int main(int argc, char** argv) {
   return exit_code_of([&] {
     const auto components = component_names();
     if (as_schema || as_table) {
-      if (name.empty()) throw UserError("--schema and --table need a NAME: launch, scenario, mission or a component");
+      if (name.empty())
+        throw UserError("--schema and --table need a NAME: launch, recipe, scenario, mission or a component");
       fmt::print("{}", parameters_of_name(name, as_schema));
     } else if (reference) {
       fmt::print("{}", msg::reference_page());

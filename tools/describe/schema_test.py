@@ -1,4 +1,4 @@
-"""Editors' help for launch, scenario and mission files.   schema_test.py BIN_FOLDER
+"""Editors' help for launch, recipe, scenario and mission files.   schema_test.py BIN_FOLDER
 
 The schemas that ship are those of the lists; every such file of the project, and the manual's mission, is valid; every key has a
 sentence to show; planted mistakes are found where they are.
@@ -95,7 +95,7 @@ def planted(validator, document, path, value, where, words):
     assert any(place == where and words in message for place, message in found), (path, found)
 
 
-shipped = {"launch": [], "scenario": [], "mission": []}
+shipped = {"launch": [], "recipe": [], "scenario": [], "mission": []}
 validators = {kind: schema_of(kind) for kind in shipped}
 for top in ("launch", "scenarios", "bench", "docs", "examples", "tests"):
     for file in sorted((SOURCE / top).rglob("*.yaml")):

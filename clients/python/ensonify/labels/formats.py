@@ -63,12 +63,13 @@ class Images:
 def facts_of(picture: Picture) -> dict:
     """All that is known of a picture, for JSON."""
     things = [{"instance": thing.instance, "name": thing.name, "class": thing.class_name, "class_id": thing.class_id,
-               "box": outlines.box(thing.mask), "shadow_box": outlines.box(thing.shadow), **_plain(thing.facts)}
+               "box": outlines.box(thing.mask), "shadow_box": outlines.box(thing.shadow), **plain(thing.facts)}
               for thing in picture.things]
-    return {**_plain(picture.facts), "height": picture.grey.shape[0], "width": picture.grey.shape[1], "objects": things}
+    return {**plain(picture.facts), "height": picture.grey.shape[0], "width": picture.grey.shape[1], "objects": things}
 
 
-def _plain(facts: dict) -> dict:
+def plain(facts: dict) -> dict:
+    """The same for JSON."""
     return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in facts.items()}
 
 
@@ -122,7 +123,7 @@ class Coco:
             self.annotations.append({
                 "id": len(self.annotations) + 1, "image_id": len(self.images), "category_id": thing.class_name, "iscrowd": 0,
                 "bbox": list(box), "area": int(pixels.sum()), "segmentation": segmentation(pixels),
-                "attributes": {"instance": thing.instance, "name": thing.name, **_plain(thing.facts)}})
+                "attributes": {"instance": thing.instance, "name": thing.name, **plain(thing.facts)}})
 
     def close(self) -> None:
         names = self.classes.ordered()

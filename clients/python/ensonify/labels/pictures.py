@@ -112,14 +112,60 @@ def _picture(name: str, pairs: list, arrange, display: Display, facts: dict, res
     ping = pairs[0].ping
     amplitude = arrange([amplitude_with_gain(pair.ping) for pair in pairs])
     grey, linear, scale_upa = _numbers(amplitude, ping.source_level_db, display)
-    facts = {**facts, "kind": ping.kind, "first_ping": ping.ping, "pings": len(pairs), "stamp_ns": ping.stamp_ns,
-             "sample_period_s": ping.sample_period_s, "sound_speed_mps": ping.sound_speed_mps, "range_m": ping.range_m,
-             "frequency_hz": ping.frequency_hz, "source_level_db": ping.source_level_db, "scale_upa": scale_upa,
-             "gain_spreading_db": ping.gain_spreading_db, "gain_absorption_dbpm": ping.gain_absorption_dbpm,
-             "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db,
-             "mask": "response" if response else "geometry"}
+    facts = _settings(pairs, scale_upa, display, {**facts, "mask": "response" if response else "geometry"})
     return Picture(name, grey, linear, scale_upa, _things(pairs, arrange, response), arrange([_layer(pair, response) for pair in pairs]),
                    arrange([of.shadow(pair.labels, of.SEABED) for pair in pairs]), facts)
+
+
+def _settings(pairs: list, scale_upa: float, display: Display, facts: dict) -> dict:
+    ping = pairs[0].ping
+    return {**facts, "kind": ping.kind, "first_ping": ping.ping, "pings": len(pairs), "stamp_ns": ping.stamp_ns,
+            "sample_period_s": ping.sample_period_s, "sound_speed_mps": ping.sound_speed_mps, "range_m": ping.range_m,
+            "frequency_hz": ping.frequency_hz, "source_level_db": ping.source_level_db, "scale_upa": scale_upa,
+            "gain_spreading_db": ping.gain_spreading_db, "gain_absorption_dbpm": ping.gain_absorption_dbpm,
+            "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db}
+
+
+def of_ping(pair: of.Labelled, view: str, display: Display, facts: dict) -> Picture:
+    """A ping of an imaging head: sample by beam, or a fan."""
+    arrange = _fan(pair.ping) if view == "cartesian" else _upright(pair.ping)
+    return _picture("", [pair], arrange, display, {**facts, "view": view}, False)
+
+
+def of_waterfall(pairs: list, left: int, width: int, display: Display, facts: dict) -> Picture:
+    """`width` columns of a sidescan's lines, from column `left` of the waterfall on."""
+    samples = pairs[0].labels.samples
+
+    def columns(beam: int, first: int, end: int) -> slice:
+        """Of a run, in the picture."""
+        first, end = (samples + first, samples + end) if beam else (samples - end, samples - first)
+        return slice(min(max(first - left, 0), width), min(max(end - left, 0), width))
+
+    amplitude = _waterfall([amplitude_with_gain(pair.ping) for pair in pairs])[:, left:left + width]
+    grey, linear, scale_upa = _numbers(amplitude, pairs[0].ping.source_level_db, display)
+    layer, seabed_shadow = np.zeros(grey.shape, np.int32), np.zeros(grey.shape, bool)
+    best: dict = {}  # by instance, the ping in which it is seen best
+    parts: dict = {}  # by instance, mask and shadow
+    for line, pair in enumerate(pairs):
+        labels = pair.labels
+        for thing in labels.objects:
+            if thing.instance not in best or thing.visible > best[thing.instance].visible:
+                best[thing.instance] = thing
+        for kind, runs in enumerate((labels.mask_run, labels.shadow_run)):
+            for whose, beam, first, end in runs.tolist():
+                where = columns(beam, first, end)
+                if where.start == where.stop:
+                    continue
+                if whose == of.SEABED:
+                    seabed_shadow[line, where] = True
+                    continue
+                instance = labels.objects[whose].instance
+                parts.setdefault(instance, np.zeros((2, *grey.shape), bool))[kind, line, where] = True
+        for whose, beam, first, end in labels.layer_run.tolist():
+            layer[line, columns(beam, first, end)] = labels.objects[whose].instance
+    things = [Thing(instance, best[instance].name, best[instance].class_name, best[instance].class_id, mask, shadow,
+                    {fact: getattr(best[instance], fact) for fact in _FACTS}) for instance, (mask, shadow) in sorted(parts.items())]
+    return Picture("", grey, linear, scale_upa, things, layer, seabed_shadow, _settings(pairs, scale_upa, display, {**facts, "mask": "geometry"}))
 
 
 def _upright(ping: Ping):

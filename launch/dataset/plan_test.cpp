@@ -1,0 +1,78 @@
+#include "launch/dataset/plan.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+using namespace ensonify;
+using namespace ensonify::dataset;
+using Catch::Matchers::Contains;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Scratch {
+  Scratch() { fs::create_directories(path); }
+  ~Scratch() { fs::remove_all(path); }
+  std::string text(const std::string& name) const {
+    std::ifstream stream(path / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  fs::path path = fs::temp_directory_path() / ("ensonify_plan_" + std::to_string(::getpid()));
+};
+
+Recipe recipe_of(const std::string& more) {
+  return read_recipe(
+      parse_config("ensonify: recipe/1\nlaunch: launch/demo.yaml\nhead: eye\nargs: { seconds: { integer: [3, 9] } }\n"
+                   "objects: { can: { object: { sphere: { diameter_m: 0.2 } } } }\n"
+                   "place: { east_m: { uniform: [-8, 8] }, north_m: 4 }\n" +
+                       more,
+                   "r.yaml"),
+      "r.yaml");
+}
+
+std::vector<Scene> scenes_of(const Recipe& recipe, const Extent& extent) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t i = 0; i < extent.scenes; ++i) scenes.push_back(draw_scene(recipe, extent.first_scene + i));
+  return scenes;
+}
+
+}  // namespace
+
+TEST_CASE("pictures need so many scenes, and one picture its own") {
+  const Recipe recipe = recipe_of("samples: 4\n");
+  CHECK(Extent::of(recipe, 8).scenes == 2);
+  CHECK(Extent::of(recipe, 9).scenes == 3);
+  CHECK(Extent::around(recipe, 9).first_scene == 2);
+}
+
+TEST_CASE("a scene's job is the same in every plan that has it, and another for another recipe") {
+  const Recipe recipe = recipe_of("samples: 4\n"), other = recipe_of("samples: 4\npicture: { least_pixels: 3 }\n");
+  const auto all = jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 12)), "base", "a");
+  const auto one = jobs_of(recipe, scenes_of(recipe, Extent::around(recipe, 9)), "base", "b");
+  CHECK(one[0].id == all[2].id);
+  CHECK(one[0].options.sets == all[2].options.sets);
+  CHECK(one[0].options.args == all[2].options.args);
+  CHECK(all[0].id != all[1].id);
+  CHECK(jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 1)), "other base", "a")[0].id != all[0].id);
+  CHECK(jobs_of(other, scenes_of(other, Extent::of(other, 1)), "base", "a")[0].id != all[0].id);
+}
+
+TEST_CASE("a plan's launch goes on from the recipe's, with its arguments") {
+  const Scratch scratch;
+  const Recipe recipe = recipe_of("");
+  const auto scenes = scenes_of(recipe, Extent::of(recipe, 2));
+  write_plan(recipe, scenes, jobs_of(recipe, scenes, "base", scratch.path), scratch.path, {});
+  const std::string launch = scratch.text("launch.yaml");
+  CHECK_THAT(launch, Contains(R"(args: {"scene":null,"seconds":null})"));
+  CHECK_THAT(launch, Contains(R"x("args":{"seconds":"$(seconds)"})x"));
+  CHECK_THAT(launch, Contains(R"x("$(scene)","$(out)"])x"));
+  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\n{\"scene\":1,"));
+  CHECK_THAT(scratch.text("scenes.jsonl"), !Contains("\"ground\":0"));
+  write_plan(recipe, scenes, jobs_of(recipe, scenes, "base", scratch.path), scratch.path, {.same_ground = true});
+  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\"ground\":0"));
+}

@@ -1,0 +1,146 @@
+"""`ensonify dataset`: the same set however it is made, and refusals."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from ensonify.dataset.check import leaks, rows_of
+from ensonify.labels.dataset import Dataset
+from support import BIN, SOURCE, SystemTest
+
+RECIPES = SOURCE / "launch/recipes"
+
+
+def files_of(folder):
+    """Bytes by name of all files of a set."""
+    return {str(file.relative_to(folder)): file.read_bytes() for file in sorted(folder.rglob("*")) if file.is_file()}
+
+
+class DatasetTest(SystemTest):
+    def dataset(self, *words, code=0, timeout=300):
+        done = subprocess.run([BIN / "ensonify-dataset", *map(str, words)], capture_output=True, text=True, timeout=timeout,
+                              env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"}, check=False)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def recipe(self, more="", of="forward_looking"):
+        """A shipped recipe with other keys, beside its own launch file."""
+        text = (RECIPES / f"{of}.yaml").read_text().replace(f"launch: {of}_launch", f"launch: {RECIPES}/{of}_launch")
+        for line in more.splitlines():
+            key = line.split(":")[0]
+            text = "\n".join(old for old in text.splitlines() if not old.startswith(f"{key}:")) + f"\n{line}\n"
+        return self.write("recipe.yaml", text)
+
+    def test_a_set_is_the_same_however_it_is_made(self):
+        recipe = self.recipe("formats: [coco, yolo, voc, masks, webdataset]\nsplits: { train: 0.5, val: 0.25, test: 0.25 }")
+        one = self.folder / "one"
+        self.dataset(recipe, "-n", 8, "-o", one, "--jobs", 2)
+        whole = files_of(one / "set")
+        self.check_content(one / "set", whole)
+        self.assertIn("is whole already", self.dataset(recipe, "-n", 8, "-o", one))
+
+        self.check_interrupted(recipe, whole)
+        for part in (1, 2):
+            self.dataset(recipe, "-n", 8, "-o", self.folder / f"part{part}", "--shard", f"{part}/2", "--jobs", 1)
+        self.assertIn("4 scenes are missing, the first is 1", self.dataset(recipe, "-n", 8, "-o", self.folder / "merged", "--merge",
+                                                                          self.folder / "part1", code=2))
+        self.dataset(recipe, "-n", 8, "-o", self.folder / "merged", "--merge", self.folder / "part1", self.folder / "part2")
+        self.assertEqual(files_of(self.folder / "merged/set"), whole)
+
+        self.dataset(recipe, "-o", self.folder / "only", "--only", 5)
+        alone = {name: content for name, content in files_of(self.folder / "only/set").items() if "00000005" in name}
+        self.assertEqual(len(alone), 7, list(alone))
+        self.assertEqual(alone, {name: content for name, content in whole.items() if "00000005" in name})
+
+        self.check_leaks(one)
+        self.assertIn("holds another plan", self.dataset(self.recipe("seed: 2"), "-n", 8, "-o", one, code=2))
+
+    def check_content(self, folder, whole):
+        rows = rows_of(folder)
+        self.assertEqual([row["picture"] for row in rows], list(range(8)))
+        self.assertEqual({row["split"] for row in rows}, {"train", "val", "test"})
+        full = [row for row in rows if row["objects"]]
+        self.assertGreater(len(full), 1)
+        for row in full:
+            self.assertTrue(row["kind"])
+            self.assertTrue(any(thing["name"].startswith(f"{row['kind']}_0_") for thing in row["objects"]), row)
+        self.assertEqual(sum(name.startswith("train/images/") for name in whole), sum(row["split"] == "train" for row in rows))
+        for split in ("train", "val", "test"):
+            self.assertGreaterEqual(len(Dataset(folder / split)), 1)
+            names = {one["id"]: one["name"] for one in json.loads(whole[f"{split}/annotations.json"])["categories"]}
+            self.assertEqual(names, {1: "crate", 2: "mine-like", 3: "person", 4: "tyre", 5: "buoy"} | names)
+        self.assertIn(b"No public labelled sonar set was used", whole["card.html"])
+        self.check_by_pycocotools(folder)
+
+    def check_by_pycocotools(self, folder):
+        try:
+            from pycocotools.coco import COCO
+        except ModuleNotFoundError:
+            return
+        coco = COCO(folder / "train/annotations.json")
+        for annotation in coco.loadAnns(coco.getAnnIds()):
+            self.assertEqual(coco.annToMask(annotation).sum(), annotation["area"])
+
+    def check_interrupted(self, recipe, whole):
+        """Killed as soon as a scene is done, and again, and then left alone."""
+        out = self.folder / "killed"
+        for scenes in (1, 4):
+            running = subprocess.Popen([BIN / "ensonify-dataset", str(recipe), "-n", "8", "-o", str(out), "--jobs", "1"],
+                                       stderr=subprocess.DEVNULL, env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"})
+            until = time.monotonic() + 120
+            while len(list(out.glob("runs/*/result.json"))) < scenes:
+                self.assertLess(time.monotonic(), until)
+                self.assertIsNone(running.poll())
+                time.sleep(0.02)
+            running.send_signal(signal.SIGKILL)
+            running.wait(30)
+            self.assertFalse((out / "set").exists())
+        self.dataset(recipe, "-n", 8, "-o", out, "--jobs", 2)
+        self.assertEqual(files_of(out / "set"), whole)
+
+    def check_leaks(self, one):
+        self.assertIn("8 pictures, no leaks", self.dataset("--check", one))
+        leaky = self.folder / "leaky"
+        shutil.copytree(one / "set", leaky)
+        rows = rows_of(leaky)
+        for row in rows:
+            row["split"] = "train"
+        rows[3]["scene"], rows[3]["split"] = rows[4]["scene"], "test"
+        (leaky / "manifest.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
+        self.assertIn(f"scene: pictures 00000003 (test) and 00000004 (train) share {rows[4]['scene']}", self.dataset("--check", leaky, code=1))
+        for row in rows:
+            row["ground"] = 0
+        self.assertTrue(any(leak.startswith("place: ") for leak in leaks(rows)))
+
+    def test_chips_hold_what_they_were_made_for(self):
+        out = self.folder / "chips"
+        self.dataset(self.recipe("empty_share: 0.2\nsplits: { train: 1, val: 0, test: 0 }", of="sidescan"), "-n", 4, "-o", out, "--jobs", 1)
+        found = 0
+        for row in rows_of(out):
+            settings = row["settings"]
+            for thing in row["objects"]:
+                if thing["name"].startswith(f"{row['kind']}_{row['picture']}_"):
+                    found += 1
+                    x, y, wide, high = thing["box"]
+                    self.assertLess(abs(x + wide / 2 - 128), 64 + 12, row["name"])
+                    self.assertTrue(settings["top"] == 0 or abs(y + high / 2 - 128) < 64 + 12, row["name"])
+        self.assertGreaterEqual(found, 2)
+
+    def test_what_is_wrong_is_said(self):
+        out = self.folder / "out"
+        refused = (("heed: eye", "heed: is not a known key; did you mean head?"),
+                   ("head: bow", "head: " + str(RECIPES / "forward_looking_launch.yaml") + " has no process bow"),
+                   ("draw: { eye.rnge_m: 3 }", "rnge_m"),
+                   ("place: { east_m: 0, north_m: 5 }\nclutter: { tyre: { count: 2, object: { tyre: {} } } }", "fail by apart_m"),
+                   ("splits: { train: 0.99, val: 0.01, test: 0 }", "splits.val: has none of 8 scenes"))
+        for more, said in refused:
+            self.assertIn(said, self.dataset(self.recipe(more), "-n", 8, "-o", out, code=2))
+        self.assertIn("--shard 3/2: allowed", self.dataset(self.recipe(), "-n", 8, "-o", out, "--shard", "3/2", code=2))
+        self.assertIn("has no manifest.jsonl", self.dataset("--check", self.folder, code=2))
+
+
+if __name__ == "__main__":
+    unittest.main()
