@@ -4,11 +4,12 @@ import os
 import pathlib
 import unittest
 
+import ensonify
 import numpy as np
 from PIL import Image
 
 from browser import BrowserTest
-from console import fan, health, mission, seabed_chart, sides, survey, voyage, write_record
+from console import fan, health, mission, seabed_chart, sides, survey, write_record
 
 MOST_AT_NIGHT = 45  # of 255, any channel of any pixel
 LAYOUTS = ("survey", "sidescan", "imaging", "navigation", "helm")
@@ -34,7 +35,9 @@ def lightness(rgb, seen):
 
 class Light(BrowserTest):
     def record(self):
-        return write_record(self.folder / "all.mcap", fan(pings=200), sides(pings=200), survey(), voyage(gap_s=(99, 99)), mission(), health(), seabed_chart())
+        declares = {head: ensonify.HeadDeclaration(kind=kind) for head, kind in (("bow", "multibeam"), ("fish", "sidescan"))}
+        streams = (fan(pings=200), sides(pings=200), survey(pings=400), mission(), health(), seabed_chart())
+        return write_record(self.folder / "all.mcap", *streams, declares=declares)
 
     def play(self, width=1500, height=900, **more):
         at = self.console(self.record(), "--loop")
@@ -147,20 +150,20 @@ class Light(BrowserTest):
         page.keyboard.press("ArrowDown")
         self.wait_for(lambda: line.inner_text() != first)
         page.locator(".map").focus()
-        page.keyboard.press("m")
-        page.keyboard.press("ArrowRight")
         chart = page.locator(".pane:has(.map) .cursor")
+        page.keyboard.press("m")
         self.wait_for(lambda: "east" in chart.inner_text())
-        self.wait_for(lambda: self.press(page, "m") and "ruler" in chart.inner_text())
+        east_m = lambda: float(chart.inner_text().split("east ")[1].split()[0])  # noqa: E731
+        before_m = east_m()
+        page.keyboard.press("ArrowRight")
+        self.wait_for(lambda: east_m() > before_m + 1)
+        page.keyboard.press("m")
+        self.wait_for(lambda: "ruler" in chart.inner_text())
         self.assertRegex(chart.inner_text(), r"ruler \d+\.\d m, grid bearing (90|89|91)\.\d°")
         # Everything that can be clicked can be reached by Tab.
         reachable = page.evaluate("""() => [...document.querySelectorAll('button, select, input')].filter((e) => e.offsetParent && e.tabIndex < 0).length""")
         self.assertEqual(reachable, 0)
         self.assertEqual(self.errors, [])
-
-    def press(self, page, key):
-        page.keyboard.press(key)
-        return True
 
     def test_what_fingers_touch_is_large_enough(self):
         page = self.play(*SIZES["tablet"], has_touch=True, is_mobile=True)

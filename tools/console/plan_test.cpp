@@ -8,10 +8,13 @@ using console::Plan;
 
 namespace {
 
-constexpr const char* kScenario =
-    "ensonify: scenario/1\nvehicles: { boat: {} }\nmission:\n  lawnmower: { centre_m: [10, 20], heading_deg: 0, "
-    "length_m: 100, "
-    "spacing_m: 30, count: 2 }\n";
+constexpr const char* kScenario = R"(
+ensonify: scenario/1
+site: { latitude_deg: 50, longitude_deg: 3 }
+seabed: { kind: layers, size_m: [400, 400], layers: { flat: { plane: { depth_m: 20, slope_deg: 0, downhill_heading_deg: 0 } } } }
+vehicles: { boat: {} }
+mission: { lawnmower: { centre_m: [10, 20], heading_deg: 0, length_m: 100, spacing_m: 30, count: 2 } }
+)";
 
 std::vector<double> lines_of(const Plan& plan) {
   const msg::ConsolePlan message = plan.message();

@@ -299,7 +299,7 @@ export function ChartPane() {
   useEffect(() => {
     const made = new Chart(place.current!, setAt, setRuler);
     chart.current = made;
-    for (const kind of ["pointerdown", "wheel"]) place.current!.addEventListener(kind, () => made.keepView());
+    for (const kind of ["pointerdown", "wheel", "keydown"]) place.current!.addEventListener(kind, () => made.keepView());
     let news = 0;
     const close = watchChart((message) => {
       made.take(message);
