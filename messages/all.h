@@ -24,8 +24,8 @@ using AllMessages =
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Energies, Transmit, SonarSettings, Tile,
                TileRelease, Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration,
                PagerDeclaration, Health, ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack,
-               ConsoleValues, ConsoleAlarms, ConsoleLog, ConsoleRelief, ConsoleEnter, ConsoleWatch, ConsoleDrawn,
-               ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
+               ConsoleValues, ConsoleAlarms, ConsoleLog, ConsoleRelief, ConsolePlan, ConsoleEnter, ConsoleWatch,
+               ConsoleDrawn, ConsoleOpen, ConsoleCommand, ConsoleAnswer>;
 
 /// Calls `visit(M{})` for every message type.
 template <class Visit>

@@ -23,7 +23,7 @@ struct ConsoleTopic {
     visit("name", "", "name of the topic; of a head's pictures HEAD/view", self.name);
     visit("type", "", "message type", self.type);
     visit("publisher", "", "process that publishes it", self.publisher);
-    visit("component", "", "component of the publisher; empty: not known", self.component);
+    visit("component", "", "component of the publisher, of a record for heads alone; empty: not known", self.component);
   }
 };
 
@@ -318,6 +318,32 @@ struct ConsoleRelief {
   }
 };
 
+/// A mark on the chart.
+struct ConsoleMark {
+  std::string text;
+  std::array<double, 2> position_enu_m{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("text", "", "description of the mark", self.text);
+    visit("position_enu_m", "m", "estimated position of the vehicle then: east, north", self.position_enu_m);
+  }
+};
+
+struct ConsolePlan {
+  static constexpr const char* kType = "console_plan/1";
+  static constexpr const char* kAbout = "What is planned, and what was marked: for a viewer's chart.";
+  Array<double> line_enu_m;
+  std::vector<ConsoleMark> marks;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("line_enu_m", "m", "runlines in the order run (line x 4): east and north of the start, then of the end",
+          self.line_enu_m);
+    visit("marks", "", "marks, the oldest first", self.marks);
+  }
+};
+
 struct ConsoleEnter {
   static constexpr const char* kType = "console_enter/1";
   static constexpr const char* kAbout = "A viewer's first message, within 2 s.";
@@ -336,6 +362,7 @@ struct ConsoleWatched {
   bool peak = false;
   double spreading_db = 0.0;
   double absorption_dbpm = 0.0;
+  bool ground = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -344,6 +371,7 @@ struct ConsoleWatched {
     visit("peak", "", "choice of a cell's level: true its strongest sample", self.peak);
     visit("spreading_db", "dB", "S of the gain S log10(R) + 2 A R to add for display, 0 to 60", self.spreading_db);
     visit("absorption_dbpm", "dB/m", "absorption A of the gain to add, 0 to 1", self.absorption_dbpm);
+    visit("ground", "", "true for ranges on the ground, where the head's altitude is known", self.ground);
   }
 };
 

@@ -34,6 +34,7 @@ struct View {
   double added_absorption_dbpm = 0.0;
   std::array<double, 3> position_enu_m{};
   std::array<double, 4> enu_from_head{};
+  double ground_altitude_m = 0.0;
   std::int64_t left_out = 0;
   Array<float> find_angle_rad;
   Array<float> find_range_m;
@@ -73,6 +74,9 @@ struct View {
     visit("enu_from_head", "1",
           "estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known",
           self.enu_from_head);
+    visit("ground_altitude_m", "m",
+          "altitude above a level seabed by which ranges lie on the ground; 0: they are slant ranges",
+          self.ground_altitude_m);
     visit("left_out", "1", "number of pictures that were left out so far because the run waited for the head",
           self.left_out);
     visit("find_angle_rad", "rad", "beam axes of the ping's valid detections; empty: none are known",

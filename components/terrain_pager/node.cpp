@@ -96,6 +96,7 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
       objects_out_(ports.out<msg::Object>("object", {.rate = all_at_once(objects_.count())})),
       object_releases_(ports.out<msg::ObjectRelease>("object_release", {.rate = all_at_once(objects_.count())})),
       chart_(ports.out<msg::Chart>("chart", {.max_bytes = kChartBytes})),
+      chart_view_(ports.live_out<msg::Chart>("chart_view", kChartBytes)),
       paging_port_(ports.declare_out({"paging", msg::Health::kType, 4096, Rate{config.rate_hz, 1}})) {
   const double feed_m =
       config.feed_margin_m > 0.0 ? config.feed_margin_m : pager::demanded_m({}, -terrain_->lowest_m());
@@ -126,7 +127,15 @@ SimTime TerrainPagerNode::step(SimTime now) {
   if (!started_) start();
   if (pose_) page(*pose_);
   report_cache();
+  show_chart();
   return events_.next();
+}
+
+/// The chart went out once, at the start. Who begins to watch later gets it here.
+void TerrainPagerNode::show_chart() {
+  const bool watched = chart_view_.watched();
+  if (watched && !chart_shown_) chart_view_.send(resident_.glance->chart);
+  chart_shown_ = watched;
 }
 
 /// Tiles of files are on disk already. Without a launch nothing says which seabed it is.

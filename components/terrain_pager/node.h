@@ -58,6 +58,7 @@ class TerrainPagerNode {
   void page(const msg::Pose& pose);
   void publish(const pager::TileKey& key);
   void report_cache();
+  void show_chart();
   void exchange_meshes(const source::Vec2& place_enu_m);
   void exchange_objects(const source::Vec2& place_enu_m);
   void report_paging(const pager::Paging::Decision& decision);
@@ -85,6 +86,8 @@ class TerrainPagerNode {
   Ports::Out<msg::Object> objects_out_;
   Ports::Out<msg::ObjectRelease> object_releases_;
   Ports::Out<msg::Chart> chart_;
+  Ports::LiveOut<msg::Chart> chart_view_;
+  bool chart_shown_ = false;  // to those who watch now
   std::size_t paging_port_;
   std::int64_t fetched_ = 0, fetched_again_ = 0;
   bool started_ = false;

@@ -47,6 +47,18 @@ msg::Pose pose_at(SimTime t, double east_m, double north_m) {
 
 }  // namespace
 
+TEST_CASE("a viewer who comes late gets the chart, once") {
+  NodeUnderTest<TerrainPagerNode> pager(small_slope());
+  const auto first = pager.step_until<msg::Chart>("chart", 5_s);
+  REQUIRE(first.size() == 1);
+  CHECK(pager.take("chart_view").empty());
+  pager.watch();
+  const auto charts = pager.step_until<msg::Chart>("chart_view", 10_s);
+  REQUIRE(charts.size() == 1);
+  CHECK(charts[0].height_m == first[0].height_m);
+  CHECK(pager.take("chart").empty());
+}
+
 TEST_CASE("the chart goes out once, at the start") {
   NodeUnderTest<TerrainPagerNode> pager(small_slope());
   const auto charts = pager.step_until<msg::Chart>("chart", 5_s);

@@ -179,6 +179,26 @@ msg::View view_as(const msg::View& view, const PictureWish& wish) {
   return other;
 }
 
+msg::View on_ground(const msg::View& view, double altitude_m) {
+  if (!(altitude_m > 0.0) || !(view.cell_m > 0.0)) return view;
+  const std::size_t beams = view.level.rows();
+  const std::size_t slant = view.level.cols();
+  const double far_m = view.first_range_m + static_cast<double>(slant) * view.cell_m;
+  const auto cells = static_cast<std::size_t>(std::max(1.0, std::ceil(far_m / view.cell_m)));
+  msg::View ground = view;
+  ground.first_range_m = 0.0;
+  ground.ground_altitude_m = altitude_m;
+  ground.level = msg::Array<std::uint8_t>({beams, cells});
+  for (std::size_t i = 0; i < cells; ++i) {
+    const double slant_m = std::hypot((static_cast<double>(i) + 0.5) * view.cell_m, altitude_m);
+    const double at = (slant_m - view.first_range_m) / view.cell_m;
+    if (at < 0.0 || at >= static_cast<double>(slant)) continue;
+    for (std::size_t beam = 0; beam < beams; ++beam)
+      ground.level(beam, i) = view.level(beam, static_cast<std::size_t>(at));
+  }
+  return ground;
+}
+
 void add_finds(msg::View& view, const msg::Soundings& soundings) {
   const std::size_t count = soundings.valid.size();
   if (soundings.beam_angle_rad.size() != count || soundings.travel_time_s.size() != count) return;

@@ -20,6 +20,7 @@ struct PictureWish {
   bool peak = false;             // a cell shows its strongest sample, else the mean of their powers
   double spreading_db = 0.0;     // S of a gain S log10(R) + 2 A R to add for display, R in m, no nearer than 1 m
   double absorption_dbpm = 0.0;  // its A
+  bool ground = false;           // ranges on the ground: on_ground(), by who knows the altitude
 
   bool operator==(const PictureWish&) const = default;
 };
@@ -36,6 +37,10 @@ msg::View view_of(const msg::Ping& ping, const std::string& beam_axis, const Pic
 /// and the gain that is wished is added at each cell's middle. Cells stay means or peaks, as they are. Levels are
 /// rounded anew: they lie within half a decibel of what view_of would have made of the ping.
 msg::View view_as(const msg::View& view, const PictureWish& wish);
+
+/// A picture over ground range instead of slant range: of a level seabed so far below the head. A cell shows the slant
+/// cell in which its middle lies; beyond the last slant range there is nothing. Without an altitude it stays as it is.
+msg::View on_ground(const msg::View& view, double altitude_m);
 
 /// Adds the valid detections of the same ping.
 void add_finds(msg::View& view, const msg::Soundings& soundings);

@@ -140,6 +140,26 @@ TEST_CASE("a picture becomes narrower, and gets its gain, as if it were made ane
   CHECK(view_as(fine, {1024, false}).level.shape() == fine.level.shape());
 }
 
+TEST_CASE("on the ground a target lies nearer than along the ray, and the water column is gone") {
+  msg::Ping ping = even_ping(100);
+  ping.first_sample_s = 0.0;
+  const std::size_t target = 40;  // 30 m of slant range; 18 m above the seabed that is 24 m on the ground
+  ping.amplitude_upa(1, target) = 1e4F;
+  const msg::View view = view_of(ping, "down", {1024, false});
+  const msg::View ground = on_ground(view, 18.0);
+  CHECK(ground.ground_altitude_m == 18.0);
+  CHECK(ground.first_range_m == 0.0);
+  std::vector<double> ranges_m;
+  for (std::size_t i = 0; i < ground.level.cols(); ++i)
+    if (ground.level(1, i) > 0 && level_of(ground, 1, i) > 70.0)
+      ranges_m.push_back((static_cast<double>(i) + 0.5) * ground.cell_m);
+  REQUIRE_FALSE(ranges_m.empty());
+  for (const double range_m : ranges_m) CHECK_THAT(range_m, WithinAbs(24.0, ground.cell_m));
+  CHECK(ground.level(0, 0) > 0);                         // the seabed straight below
+  CHECK(ground.level(0, ground.level.cols() - 1) == 0);  // its slant range is beyond the last
+  CHECK(on_ground(view, 0.0).ground_altitude_m == 0.0);
+}
+
 TEST_CASE("valid detections stand at their ranges") {
   msg::Soundings soundings;
   soundings.valid = msg::Array<std::uint8_t>::of({1, 0, 1, 1});

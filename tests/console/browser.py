@@ -31,8 +31,8 @@ class BrowserTest(ConsoleTest):
         cls.browser.close()
         cls.playwright.stop()
 
-    def open(self, url, width=1400, height=850):
-        page = self.browser.new_page(viewport={"width": width, "height": height})
+    def open(self, url, width=1400, height=850, **more):
+        page = self.browser.new_page(viewport={"width": width, "height": height}, **more)
         self.addCleanup(page.close)
         self.errors, self.asked = [], set()
         page.on("pageerror", lambda error: self.errors.append(str(error)))

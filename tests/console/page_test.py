@@ -114,6 +114,30 @@ class Page(BrowserTest):
         self.shot(page, "waterfall")
         self.assertEqual(self.errors, [])
 
+    def test_on_the_ground_a_target_lies_nearer_than_along_the_ray(self):
+        def with_target(pings=100, samples=600, slant_m=30.0, altitude_m=18.0):
+            for topic, ping in sides(pings, samples):
+                ping.amplitude_upa[1, round(slant_m / 0.06) - 3:round(slant_m / 0.06) + 4] = 1e7
+                yield topic, ping
+                yield "fish/bottom_track", ensonify.BottomTrack(stamp_ns=ping.stamp_ns, ping=ping.ping, valid=True, altitude_m=altitude_m)
+
+        at = self.console(write_record(self.folder / "ground.mcap", with_target()), "--loop")
+        page = self.open(at.view)
+        self.wait_for_flow(page)
+        for kind, range_m in (("slant", 30.0), ("ground", 24.0)):
+            if kind == "ground":
+                page.get_by_label("ground range").check()
+            page.wait_for_selector(f"text=port · {kind} range", timeout=15_000)
+
+            def found():
+                picture = self.picture(page, "fish/view")[0]
+                red = (picture & 255).astype(int) + ((picture >> 8) & 255) + ((picture >> 16) & 255)
+                x = int(np.argmax(red[len(red) // 2:])) + len(red) // 2
+                line = self.cursor(page, "fish/view", x + 0.5, 0.5)
+                return f"starboard, {kind} range" in line and abs(float(line.split("range ")[1].split()[0]) - range_m) < 0.4
+            self.wait_for(found)
+        self.assertEqual(self.errors, [])
+
     def test_the_chart_shows_each_cell_at_its_place(self):
         at = self.console(write_record(self.folder / "survey.mcap", survey(pings=60)), "--rate", "3")
         page = self.open(at.view)

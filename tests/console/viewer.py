@@ -7,7 +7,7 @@ import msgpack
 import numpy as np
 from websockets.sync.client import connect
 
-TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "console_cells/1", "console_track/1", "console_values/1", "console_alarms/1", "console_log/1", "console_relief/1", "mission_state/1", "pose/1")
+TYPES = ("view/1", "health/1", "clock_health/1", "console_state/1", "console_flow/1", "console_answer/1", "console_cells/1", "console_track/1", "console_values/1", "console_alarms/1", "console_log/1", "console_relief/1", "console_plan/1", "mission_state/1", "pose/1")
 DTYPES = {"u1": "<u1", "i2": "<i2", "u2": "<u2", "i4": "<i4", "u4": "<u4", "i8": "<i8", "f4": "<f4", "f8": "<f8"}
 
 

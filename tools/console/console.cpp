@@ -5,6 +5,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/run_finder.h"
+#include "tools/console/blind.h"
 #include "tools/console/viewer.h"
 
 namespace ensonify::console {
@@ -59,6 +60,7 @@ void Console::leave(Viewer& viewer) { viewers_.remove(&viewer); }
 
 std::vector<msg::ConsoleItem> Console::items() const {
   std::vector<msg::ConsoleItem> items;
+  if (options_.blind) return items;
   for (const LiveRun& run : live_runs(runs_folder()))
     items.push_back({std::string(kRun) + run.id(), "run", run.id() + ": " + run.about.text()});
   if (options_.folder.empty()) return items;
@@ -79,6 +81,7 @@ std::shared_ptr<Desk> Console::desk(const std::string& id) {
   std::unique_ptr<Source> source;
   if (id.starts_with(kRun)) source = live_source(id.substr(kRun.size()));
   else source = record_source(id.substr(kRecord.size()), options_.record);
+  if (options_.blind) source = blind(std::move(source));
   return desks_[id] = std::make_shared<Desk>(std::move(source));
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "components/view/ping_view.h"
 #include "messages/clock.h"
 #include "messages/health.h"
+#include "messages/mission.h"
 #include "messages/motion.h"
 #include "messages/navigation.h"
+#include "messages/sonar.h"
 #include "messages/soundings.h"
 #include "messages/terrain.h"
 #include "tools/console/relief.h"
@@ -27,6 +30,7 @@ constexpr std::size_t kFinds = 16;    // pings of a head whose detections may be
 constexpr std::size_t kFanBeams = 3;  // a head with fewer beams draws lines
 constexpr std::string_view kPing = "ping";
 constexpr std::string_view kView = "view";
+constexpr std::string_view kBottomTrack = "bottom_track";
 
 bool is_state(const std::string& type) {
   return type == msg::Health::kType || type == msg::ClockHealth::kType || type == msg::MissionState::kType;
@@ -49,6 +53,29 @@ bool places_world(const std::string& type) { return type == msg::Chart::kType ||
 
 /// Where the processes of a run write their logs.
 std::string log_folder(const Source& source) { return source.folder().empty() ? "" : source.folder() + "/log"; }
+
+/// "side/view_main" of "side/bottom_track_main".
+std::string view_topic_beside(const std::string& bottom_topic) {
+  std::string topic = bottom_topic;
+  const std::size_t at = topic.find(kBottomTrack);
+  return at == std::string::npos ? "" : topic.replace(at, kBottomTrack.size(), kView);
+}
+
+bool wants_ground(const Flow& flow, const std::string& view_topic) {
+  return std::any_of(flow.watched().begin(), flow.watched().end(),
+                     [&](const msg::ConsoleWatched& watched) { return watched.ground && watched.topic == view_topic; });
+}
+
+/// A message that a desk has made.
+template <msg::Message M>
+msg::Packet packet_of(const char* topic, const M& message, std::uint64_t seq) {
+  msg::Packet packet{topic, {}, msg::encode(message), {}};
+  packet.envelope.type_hash = msg::type_hash(M::kType);
+  packet.envelope.seq = seq;
+  return packet;
+}
+
+bool plans(const std::string& type) { return type == msg::NextLine::kType || type == msg::Mark::kType; }
 
 }  // namespace
 
@@ -89,7 +116,10 @@ void Desk::ask_source() {
     const auto wants = [&](const Flow* flow) {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
              (soundings && wants_finds(*flow, process_of(topic))) ||
-             (places_world(entry.second) && flow->watches(kReliefTopic)) ||
+             (places_world(entry.second) && !(entry.second == msg::Chart::kType && has_relief_) &&
+              flow->watches(kReliefTopic)) ||
+             (entry.second == msg::BottomTrack::kType && wants_ground(*flow, view_topic_beside(topic))) ||
+             (plans(entry.second) && flow->watches(kPlanTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };
     if (std::any_of(viewers_.begin(), viewers_.end(), wants)) wanted.insert(topic);
@@ -127,12 +157,14 @@ void Desk::refresh() {
   if (alarms) state_.topics.push_back({kAlarmsTopic, msg::ConsoleAlarms::kType, "", ""});
   if (std::filesystem::is_directory(std::filesystem::symlink_status(log_folder(*source_), error)))
     state_.topics.push_back({kLogTopic, msg::ConsoleLog::kType, "", ""});
+  if (chart || tracks) state_.topics.push_back({kPlanTopic, msg::ConsolePlan::kType, "", ""});
   if (chart) state_.topics.push_back({kReliefTopic, msg::ConsoleRelief::kType, "", ""});
   if (cells) state_.topics.push_back({kCellsTopic, msg::ConsoleCells::kType, "", ""});
   if (tracks) state_.topics.push_back({kTrackTopic, msg::ConsoleTrack::kType, "", ""});
 }
 
 bool Desk::poll(WallTime now) {
+  const bool was_relieved = has_relief_;
   try {
     source_->poll(now, kPollBudget, [&](msg::Packet packet) { take(std::move(packet), now); });
   } catch (const std::exception& e) {
@@ -142,27 +174,32 @@ bool Desk::poll(WallTime now) {
   msg::ConsoleState fresh = source_->state();
   if (fresh.message.empty()) fresh.message = fault_;
   const bool was_away = state_.state == "waiting" || state_.state == "ended";
-  if (fresh.kind == "run" && was_away && fresh.state == "running") {  // another run of that name
+  const bool another = fresh.kind == "run" && was_away && fresh.state == "running";  // of that name
+  if (another) {
     survey_.clear();
     values_.clear();
     alarms_.clear();
     logs_.clear();
-    has_map_ = has_relief_ = false;
+    has_map_ = has_relief_ = has_plan_ = false;
+    plan_.clear();
     chart_tries_ = 0;
     newest_.clear();
     finds_.clear();
+    altitude_m_.clear();
     fault_.clear();
   }
+  if (has_relief_ && !was_relieved) ask_source();  // who has the chart needs it no more
   watch_disk(now);
   read_logs(now);
   find_chart(now);
+  make_plan(now);
   offer_alarms(now);
   const bool topics_changed = fresh.topics.size() != type_of_.size();
   if (!topics_changed && fresh.state == state_.state && fresh.message == state_.message &&
       fresh.speed == state_.speed && fresh.name == state_.name)
     return false;
   refresh();
-  if (topics_changed) ask_source();
+  if (topics_changed || another) ask_source();
   return true;
 }
 
@@ -195,25 +232,33 @@ void Desk::find_chart(WallTime now) {
   }
 }
 
+void Desk::offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now) {
+  const Offer offer{topic, way, std::make_shared<const msg::Packet>(std::move(packet)), now};
+  newest_[topic] = offer;
+  for (Flow* flow : viewers_) flow->offer(offer);
+}
+
 void Desk::offer_relief(const msg::ConsoleRelief& relief, WallTime now) {
   has_map_ = true;
-  msg::Packet packet{kReliefTopic, {}, msg::encode(relief), {}};
-  packet.envelope.type_hash = msg::type_hash(msg::ConsoleRelief::kType);
-  packet.envelope.seq = relief_seq_++;
-  const Offer offer{kReliefTopic, Way::picture, std::make_shared<const msg::Packet>(std::move(packet)), now};
-  newest_[kReliefTopic] = offer;
-  for (Flow* flow : viewers_) flow->offer(offer);
+  offer_newest(kReliefTopic, Way::picture, packet_of(kReliefTopic, relief, relief_seq_++), now);
+}
+
+/// The scenario is read when somebody wants the plan, and not before.
+void Desk::make_plan(WallTime now) {
+  const auto watches = [](const Flow* flow) { return flow->watches(kPlanTopic); };
+  if (std::none_of(viewers_.begin(), viewers_.end(), watches)) return;
+  if (const std::string scenario = has_plan_ ? "" : source_->scenario(); !scenario.empty()) {
+    plan_.read(scenario);
+    has_plan_ = plan_is_new_ = true;
+  }
+  if (!std::exchange(plan_is_new_, false)) return;
+  offer_newest(kPlanTopic, Way::picture, packet_of(kPlanTopic, plan_.message(), plan_seq_++), now);
 }
 
 void Desk::offer_alarms(WallTime now) {
   if (now - alarms_said_ < kAlarmsEvery || !alarms_.changed()) return;
   alarms_said_ = now;
-  msg::Packet packet{kAlarmsTopic, {}, msg::encode(alarms_.message()), {}};
-  packet.envelope.type_hash = msg::type_hash(msg::ConsoleAlarms::kType);
-  packet.envelope.seq = alarms_seq_++;
-  const Offer offer{kAlarmsTopic, Way::state, std::make_shared<const msg::Packet>(std::move(packet)), now};
-  newest_[kAlarmsTopic] = offer;
-  for (Flow* flow : viewers_) flow->offer(offer);
+  offer_newest(kAlarmsTopic, Way::state, packet_of(kAlarmsTopic, alarms_.message(), alarms_seq_++), now);
 }
 
 bool Desk::makes_view_of(const std::string& topic, const std::string& type) const {
@@ -246,12 +291,19 @@ void Desk::take(msg::Packet packet, WallTime now) {
     values_.take(type->second, packet);
     alarms_.take(type->second, packet);
     if (type->second == msg::Chart::kType) {
+      if (!has_relief_) offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
       has_relief_ = true;
-      offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
     } else if (type->second == msg::Position::kType && !has_map_) {
       if (const auto map = map_of(msg::decode<msg::Position>(packet.body, packet.body.size()))) offer_relief(*map, now);
     }
     survey_.take(type->second, packet);
+    if (type->second == msg::NextLine::kType) plan_.take(msg::decode<msg::NextLine>(packet.body, packet.body.size()));
+    if (type->second == msg::Mark::kType) plan_.take(msg::decode<msg::Mark>(packet.body, packet.body.size()));
+    plan_is_new_ = plan_is_new_ || plans(type->second);
+    if (type->second == msg::BottomTrack::kType) {
+      const auto bottom = msg::decode<msg::BottomTrack>(packet.body, packet.body.size());
+      if (bottom.valid && bottom.altitude_m > 0.0) altitude_m_[view_topic_beside(packet.topic)] = bottom.altitude_m;
+    }
     if (type->second == msg::Soundings::kType) {
       auto& finds = finds_[process_of(packet.topic)];
       finds.push_back(msg::decode<msg::Soundings>(packet.body, packet.body.size()));
@@ -266,6 +318,12 @@ void Desk::take(msg::Packet packet, WallTime now) {
 }
 
 msg::View Desk::picture_of(const Sending& sending, const std::string& type) const {
+  const auto altitude = altitude_m_.find(sending.offer.topic);
+  const bool ground = sending.wish.ground && altitude != altitude_m_.end();
+  return ground ? on_ground(slant_picture_of(sending, type), altitude->second) : slant_picture_of(sending, type);
+}
+
+msg::View Desk::slant_picture_of(const Sending& sending, const std::string& type) const {
   const msg::Packet& packet = *sending.offer.packet;
   if (type == msg::View::kType) return view_as(msg::decode<msg::View>(packet.body, packet.body.size()), sending.wish);
   const auto ping = msg::decode<msg::Ping>(packet.body, packet.body.size());

@@ -13,6 +13,7 @@
 #include "tools/console/alarms.h"
 #include "tools/console/flow.h"
 #include "tools/console/logs.h"
+#include "tools/console/plan.h"
 #include "tools/console/source.h"
 #include "tools/console/survey.h"
 #include "tools/console/values.h"
@@ -52,6 +53,7 @@ class Desk {
   bool makes_view_of(const std::string& topic, const std::string& type) const;
   bool wants_finds(const Flow& flow, const std::string& head) const;
   msg::View picture_of(const Sending& sending, const std::string& type) const;
+  msg::View slant_picture_of(const Sending& sending, const std::string& type) const;
   void refresh();
   void ask_source();
   void watch_disk(WallTime now);
@@ -59,6 +61,8 @@ class Desk {
   void find_chart(WallTime now);
   void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
   void offer_alarms(WallTime now);
+  void make_plan(WallTime now);
+  void offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now);
 
   std::unique_ptr<Source> source_;
   std::list<Flow*> viewers_;
@@ -69,6 +73,10 @@ class Desk {
   std::map<std::string, Offer> newest_;         // of each topic with a state, for who comes later
   Survey survey_;
   Values values_;
+  Plan plan_;
+  bool has_plan_ = false;  // the scenario's has been read
+  bool plan_is_new_ = false;
+  std::uint64_t plan_seq_ = 0;
   std::uint64_t relief_seq_ = 0;
   bool has_map_ = false;
   bool has_relief_ = false;
@@ -82,6 +90,8 @@ class Desk {
   WallTime disk_seen_;
   std::map<std::string, std::deque<msg::Soundings>> finds_;  // of the last pings, by head, for pictures made here
 
+  std::map<std::string, double> altitude_m_;  // of heads by their newest bottom track, by topic of its pictures
+
   struct Made {  // the last pictures, for several viewers of one size
     std::shared_ptr<const msg::Packet> of;
     PictureWish wish;
@@ -91,12 +101,13 @@ class Desk {
 };
 
 /// Topics that a desk makes of several: console_cells/1, console_track/1, console_values/1,
-/// console_alarms/1, console_log/1.
+/// console_alarms/1, console_log/1, console_relief/1, console_plan/1.
 inline constexpr const char* kCellsTopic = "cells";
 inline constexpr const char* kTrackTopic = "track";
 inline constexpr const char* kValuesTopic = "values";
 inline constexpr const char* kAlarmsTopic = "alarms";
 inline constexpr const char* kReliefTopic = "relief";
+inline constexpr const char* kPlanTopic = "plan";
 inline constexpr const char* kLogTopic = "log";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.

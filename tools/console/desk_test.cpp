@@ -6,6 +6,8 @@
 #include "components/view/ping_view.h"
 #include "messages/health.h"
 #include "messages/sonar.h"
+#include "messages/terrain.h"
+#include "tools/console/blind.h"
 
 using namespace ensonify;
 using namespace ensonify::console;
@@ -25,9 +27,15 @@ class TestSource : public Source {
     msg::ConsoleState state;
     state.kind = "run";
     state.state = word;
-    state.topics = {{"bow/ping", "ping/1", "bow", ""},           {"side/ping_main", "ping/1", "side", ""},
-                    {"fls/ping", "ping/1", "fls", ""},           {"fls/view", "view/1", "fls", ""},
-                    {"fls/soundings", "soundings/1", "fls", ""}, {"nav/health", "health/1", "nav", ""},
+    state.topics = {{"bow/ping", "ping/1", "bow", ""},
+                    {"side/ping_main", "ping/1", "side", ""},
+                    {"fls/ping", "ping/1", "fls", ""},
+                    {"fls/view", "view/1", "fls", ""},
+                    {"fls/soundings", "soundings/1", "fls", ""},
+                    {"nav/health", "health/1", "nav", ""},
+                    {"side/bottom_track_main", "bottom_track/1", "side", ""},
+                    {"pager/chart_view", "chart/1", "pager", ""},
+                    {"boat/pose", "pose/1", "boat", ""},
                     {"bow/soundings", "soundings/1", "bow", ""}};
     return state;
   }
@@ -90,7 +98,7 @@ TEST_CASE("alarms and numbers ask for the topics that they are made of") {
   Scene scene;
   scene.desk.add(scene.flow);
   scene.watch({"alarms"});
-  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "fls/soundings", "nav/health"});
+  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "fls/soundings", "nav/health", "side/bottom_track_main"});
   msg::ConsoleWatch wish;
   wish.topics = {{"values", 16, false, 0.0, 0.0}};
   wish.values = {"bow/ping.pings_per_s", "no/topic.x"};
@@ -175,6 +183,29 @@ TEST_CASE("a head's own pictures are taken, made as wide as they are watched, an
   CHECK(view.level_floor_db + (view.level(2, 3) - 1) * view.level_step_db == 60.0);
 }
 
+TEST_CASE("a waterfall that is wished on the ground has the altitude of its own bottom track") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  msg::ConsoleWatch wish;
+  wish.topics = {{"side/view_main", 1024, false, 0.0, 0.0, true}};
+  scene.flow.watch(wish, scene.now);
+  scene.desk.settle(scene.flow);
+  CHECK(scene.wanted == std::set<std::string>{"side/bottom_track_main", "side/ping_main"});
+  const auto altitude = [&] {
+    scene.desk.poll(scene.now);
+    const auto line = scene.flow.next(scene.now);
+    REQUIRE(line);
+    return msg::decode<msg::View>(scene.desk.message_of(*line).body, 1 << 20).ground_altitude_m;
+  };
+  scene.said = {ping("side/ping_main", 2, 0)};
+  CHECK(altitude() == 0.0);  // not known yet
+  msg::BottomTrack bottom;
+  bottom.valid = true;
+  bottom.altitude_m = 3.5;
+  scene.said = {{"side/bottom_track_main", {}, msg::encode(bottom), {}}, ping("side/ping_main", 2, 1)};
+  CHECK(altitude() == 3.5);
+}
+
 TEST_CASE("who comes later gets the states and pictures that there are") {
   Scene scene;
   scene.desk.add(scene.flow);
@@ -218,6 +249,49 @@ TEST_CASE("a picture has the detections of its own ping") {
   sending = scene.flow.next(scene.now);
   REQUIRE(sending);
   CHECK(finds() == 1);
+}
+
+TEST_CASE("a chart is asked for until there is one, and again of another run") {
+  Scene scene;
+  scene.desk.add(scene.flow);
+  scene.watch({"relief"});
+  CHECK(scene.wanted.contains("pager/chart_view"));
+  msg::Chart chart;
+  chart.spacing_m = 10.0;
+  chart.east_m = chart.north_m = 20.0;
+  chart.height_m = msg::Array<float>({3, 3});
+  scene.said = {{"pager/chart_view", {}, msg::encode(chart), {}}};
+  scene.desk.poll(scene.now);
+  CHECK_FALSE(scene.wanted.contains("pager/chart_view"));
+  CHECK(scene.flow.next(scene.now)->offer.topic == "relief");
+  for (const char* word : {"ended", "running"}) {
+    scene.source->word = word;
+    scene.desk.poll(scene.now);
+  }
+  CHECK(scene.wanted.contains("pager/chart_view"));
+}
+
+TEST_CASE("whom the truth is withheld from is offered and asks for instruments alone") {
+  std::deque<msg::Packet> said;
+  std::set<std::string> wanted;
+  Desk desk(blind(std::make_unique<TestSource>(said, wanted)));
+  for (const msg::ConsoleTopic& topic : desk.state().topics) {
+    CHECK(topic.type != "pose/1");
+    CHECK(topic.type != "health/1");
+  }
+  const WallTime now = std::chrono::steady_clock::now();
+  Flow flow(now);
+  desk.add(flow);
+  msg::ConsoleWatch wish;
+  for (const char* topic : {"boat/pose", "nav/health", "track", "alarms", "values", "bow/view"})
+    wish.topics.push_back({topic, 16, false, 0.0, 0.0});
+  wish.values = {"boat/pose.heading_grid_rad"};
+  flow.watch(wish, now);
+  desk.settle(flow);
+  CHECK_FALSE(wanted.contains("boat/pose"));
+  CHECK_FALSE(wanted.contains("nav/health"));
+  CHECK(wanted.contains("bow/ping"));
+  desk.remove(flow);
 }
 
 TEST_CASE("another run of the same name begins with an empty chart") {

@@ -32,7 +32,8 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
                 [&](const auto& entry) { return !watches(entry.first) && !entry.first.starts_with("console/"); });
   for (const msg::ConsoleWatched& watched : wish_.topics) {
     Topic& topic = topics_[watched.topic];
-    topic.wish = {static_cast<std::size_t>(watched.cells), watched.peak, watched.spreading_db, watched.absorption_dbpm};
+    topic.wish = {static_cast<std::size_t>(watched.cells), watched.peak, watched.spreading_db, watched.absorption_dbpm,
+                  watched.ground};
   }
   answered_ = now;
 }

@@ -19,9 +19,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kQueue = 200;                // messages of a topic that wait for us
-constexpr milliseconds kAskAgain{200};     // for a run that is not there yet
-constexpr milliseconds kLookAgain{1000};   // whether it still is
+constexpr int kQueue = 200;               // messages of a topic that wait for us
+constexpr milliseconds kAskAgain{200};    // for a run that is not there yet
+constexpr milliseconds kLookAgain{1000};  // whether it still is
+constexpr const char* kScenarioFact = "scenario";
 constexpr const char* kBeamAxis = "down";  // of heads that declare none
 
 /// What the clock says of a run, asked in a thread of its own: a run that is busy may take seconds to answer.
@@ -30,6 +31,7 @@ struct Joined {
   RunRegistry registry;
   std::optional<bus::Keys> keys;
   std::map<std::string, std::string> axes;  // by head
+  std::string scenario;
   std::string state;
   double rate = 0.0;
 };
@@ -50,6 +52,8 @@ std::optional<Joined> join(const std::string& name) {
       for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(text))
         joined.axes[head] = declaration.beam_axis;
     }
+    if (std::find(facts.begin(), facts.end(), kScenarioFact) != facts.end())
+      joined.scenario = clock.ask({{"kind", "get"}, {"what", kScenarioFact}}).at("text");
     return joined;
   } catch (const std::exception&) {
     return std::nullopt;  // not there, or gone while it was asked
@@ -107,6 +111,7 @@ class LiveSource : public Source {
   }
 
   std::string folder() const override { return folder_; }
+  std::string scenario() const override { return run_ ? run_->scenario : ""; }
 
   void want(const std::set<std::string>& topics) override {
     wanted_ = topics;

@@ -30,6 +30,7 @@ struct Options {
   RunOptions own;
   bool loop = false;
   bool stay = false;
+  bool blind = false;
   int port = 0;
   std::string folder;
 };
@@ -57,6 +58,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--folder", options.folder,
                  "folder below which records may be opened (default: that of the record, or the run's --out)");
   app.add_flag("--stay", options.stay, "serve on after the run that it started, also without a terminal");
+  app.add_flag("--blind", options.blind,
+               "withhold the truth, for exercises: only what instruments say crosses the socket; no logs, and nothing "
+               "else can be opened");
   app.footer(
       "Prints two URLs: one to view, one to control as well. Serves until Ctrl-C (without a terminal until the run "
       "that it\n"
@@ -88,7 +92,8 @@ std::vector<std::string> launch_files() {
 int serve(const Options& options, std::optional<int>& ended) {
   ConsoleOptions console_options;
   console_options.folder = options.folder;
-  console_options.launches = launch_files();
+  console_options.blind = options.blind;
+  if (!options.blind) console_options.launches = launch_files();
   const bool starts = !options.target.empty() && !is_record(options.target);
   const double pace = options.own.rate > 0.0 ? options.own.rate : 1.0;
   console_options.record = {options.own.free && !starts ? 0.0 : pace, options.loop};

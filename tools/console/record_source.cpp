@@ -17,6 +17,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
+constexpr const char* kScenarioName = "scenario.yaml";  // of a record's attachments
+
 /// Adds to an integer of a message.
 void shift(msg::Value& message, std::string_view key, std::int64_t by) {
   auto* map = std::get_if<msg::Value::Map>(&message.is);
@@ -34,12 +36,10 @@ class RecordSource : public Source {
       : file_(std::move(file)), options_(options), speed_(options.speed) {
     rewind();
     read_next();  // records of other writers name their topics among the messages
-    list_topics();
     for (const record::Attachment& attachment : reader_->attachments()) {
-      if (attachment.name != record::kDeclarationsName) continue;
-      for (const auto& [head, declaration] : declared<msg::HeadDeclaration>(attachment.data))
-        axes_[head] = declaration.beam_axis;
+      if (attachment.name == record::kDeclarationsName) heads_ = declared<msg::HeadDeclaration>(attachment.data);
     }
+    list_topics();
   }
 
   msg::ConsoleState state() const override {
@@ -54,8 +54,14 @@ class RecordSource : public Source {
   }
 
   std::string beam_axis(const std::string& publisher) const override {
-    const auto axis = axes_.find(publisher);
-    return axis == axes_.end() ? "down" : axis->second;
+    const auto head = heads_.find(publisher);
+    return head == heads_.end() ? "down" : head->second.beam_axis;
+  }
+
+  std::string scenario() const override {
+    for (const record::Attachment& attachment : reader_->attachments())
+      if (attachment.name == kScenarioName) return attachment.data;
+    return "";
   }
 
   std::string folder() const override { return std::filesystem::absolute(file_).parent_path().string(); }
@@ -98,7 +104,8 @@ class RecordSource : public Source {
     topics_.clear();
     for (const auto& [id, channel] : reader_->channels()) {
       const std::string publisher = channel.topic.substr(0, channel.topic.find('/'));
-      topics_.push_back({channel.topic, channel.type, publisher, ""});
+      const auto head = heads_.find(publisher);
+      topics_.push_back({channel.topic, channel.type, publisher, head == heads_.end() ? "" : head->second.kind});
     }
   }
 
@@ -171,7 +178,7 @@ class RecordSource : public Source {
   bool ended_ = false;
   std::string message_;
   std::vector<msg::ConsoleTopic> topics_;
-  std::map<std::string, std::string> axes_;
+  std::map<std::string, msg::HeadDeclaration> heads_;
   std::set<std::string> wanted_;
   std::unique_ptr<record::RecordReader> reader_;
   std::optional<record::RecordedMessage> next_;

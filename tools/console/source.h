@@ -27,6 +27,8 @@ class Source {
   virtual void want(const std::set<std::string>& topics) = 0;
   /// Folder of the run's results or of the record; empty: not known.
   virtual std::string folder() const = 0;
+  /// Text of the scenario; empty: not known. It holds the truth, and goes to no viewer.
+  virtual std::string scenario() const { return ""; }
   /// Hands over what has come, for at most `budget` of wall time.
   virtual void poll(WallTime now, std::chrono::milliseconds budget, const Take& take) = 0;
   /// Throws UserError for what cannot be done.

@@ -27,6 +27,8 @@ __all__ = [
     "ConsoleLogLine",
     "ConsoleLog",
     "ConsoleRelief",
+    "ConsoleMark",
+    "ConsolePlan",
     "ConsoleEnter",
     "ConsoleWatched",
     "ConsoleWatch",
@@ -139,7 +141,7 @@ class ConsoleTopic(Struct):
     name: name of the topic; of a head's pictures HEAD/view
     type: message type
     publisher: process that publishes it
-    component: component of the publisher; empty: not known
+    component: component of the publisher, of a record for heads alone; empty: not known
     """
 
     name: str = ""
@@ -429,6 +431,31 @@ class ConsoleRelief(Message):
 
 
 @dataclass(eq=False)
+class ConsoleMark(Struct):
+    """A mark on the chart.
+
+    text: description of the mark
+    position_enu_m [m]: estimated position of the vehicle then: east, north
+    """
+
+    text: str = ""
+    position_enu_m: tuple = fixed(0.0, 0.0)
+
+
+@dataclass(eq=False)
+class ConsolePlan(Message):
+    """What is planned, and what was marked: for a viewer's chart.
+
+    line_enu_m [m]: runlines in the order run (line x 4): east and north of the start, then of the end
+    marks: marks, the oldest first
+    """
+
+    TYPE = "console_plan/1"
+    line_enu_m: np.ndarray = array("f8")
+    marks: list = list_of(ConsoleMark)
+
+
+@dataclass(eq=False)
 class ConsoleEnter(Message):
     """A viewer's first message, within 2 s.
 
@@ -448,6 +475,7 @@ class ConsoleWatched(Struct):
     peak: choice of a cell's level: true its strongest sample
     spreading_db [dB]: S of the gain S log10(R) + 2 A R to add for display, 0 to 60
     absorption_dbpm [dB/m]: absorption A of the gain to add, 0 to 1
+    ground: true for ranges on the ground, where the head's altitude is known
     """
 
     topic: str = ""
@@ -455,6 +483,7 @@ class ConsoleWatched(Struct):
     peak: bool = False
     spreading_db: float = 0.0
     absorption_dbpm: float = 0.0
+    ground: bool = False
 
 
 @dataclass(eq=False)
@@ -1822,6 +1851,7 @@ class View(Message):
     added_absorption_dbpm [dB/m]: absorption A of the gain that was added
     position_enu_m [m]: estimated place of the head at transmission: east, north, up from chart datum
     enu_from_head [1]: estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known
+    ground_altitude_m [m]: altitude above a level seabed by which ranges lie on the ground; 0: they are slant ranges
     left_out [1]: number of pictures that were left out so far because the run waited for the head
     find_angle_rad [rad]: beam axes of the ping's valid detections; empty: none are known
     find_range_m [m]: slant range of each of these detections, by the head's own sound speed
@@ -1851,6 +1881,7 @@ class View(Message):
     added_absorption_dbpm: float = 0.0
     position_enu_m: tuple = fixed(0.0, 0.0, 0.0)
     enu_from_head: tuple = fixed(0.0, 0.0, 0.0, 0.0)
+    ground_altitude_m: float = 0.0
     left_out: int = 0
     find_angle_rad: np.ndarray = array("f4")
     find_range_m: np.ndarray = array("f4")
@@ -1867,6 +1898,7 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleAlarms,
     ConsoleLog,
     ConsoleRelief,
+    ConsolePlan,
     ConsoleEnter,
     ConsoleWatch,
     ConsoleDrawn,

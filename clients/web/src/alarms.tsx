@@ -30,6 +30,8 @@ function acknowledge(these: ConsoleAlarm[]) {
   acknowledged.value = { ...acknowledged.value, ...Object.fromEntries(these.map((alarm) => [keyOf(alarm), alarm.raised])) };
 }
 
+export const acknowledgeAll = () => acknowledge(alarms.value.alarms.filter(isNew));
+
 export function Alarms() {
   const shown = alarms.value.alarms.filter((alarm) => alarm.active || isNew(alarm));
   if (!shown.length) return null;

@@ -17,12 +17,18 @@ import Fill from "ol/style/Fill";
 import RegularShape from "ol/style/RegularShape";
 import Stroke from "ol/style/Stroke";
 import Style from "ol/style/Style";
-import { ConsoleCells, ConsoleRelief, ConsoleTrack } from "./messages";
-import { DEPTHS, ESTIMATE, TRUTH } from "./palette";
+import Text from "ol/style/Text";
+import { ConsoleCells, ConsolePlan, ConsoleTrack } from "./messages";
+import { kept } from "./kept";
+import { colours } from "./light";
+import { depthColours, ESTIMATE, TRUTH } from "./palette";
 import { Relief } from "./relief";
-import { watchChart } from "./store";
+import { ChartNews, watchChart } from "./store";
+import { ColourBar, Swatch } from "./swatch";
 
 const PLANE = new Projection({ code: "ensonify:plane", units: "m", extent: [-1e7, -1e7, 1e7, 1e7], axisOrientation: "enu" });
+const PLAN = "#e8e8e8"; // lines and marks
+const PLANNED = new Style({ stroke: new Stroke({ color: PLAN, width: 1, lineDash: [8, 5] }) });
 const RULER = new Style({ stroke: new Stroke({ color: "#ffffff", width: 1.5, lineDash: [6, 4] }) });
 
 interface Cell {
@@ -34,6 +40,8 @@ interface Cell {
 
 type Colours = "mean" | "shoalest" | "count" | "sd";
 const WORDS: Record<Colours, string> = { mean: "mean depth, m", shoalest: "shoalest, m", count: "soundings", sd: "standard deviation, m" };
+
+const colouredBy = kept<Colours>("chart", "mean", (value) => Object.keys(WORDS).includes(value as string));
 
 const valueOf = (cell: Cell, by: Colours) => (by === "mean" ? cell.mean_m : by === "shoalest" ? cell.shoalest_m : by === "count" ? cell.count : cell.sd_m);
 const keyOf = (column: number, row: number) => row * 67108864 + column;
@@ -92,7 +100,7 @@ class Cells {
   colour(value: number): number {
     const [low, high] = this.range;
     const part = (value - low) / Math.max(high - low, 1e-6);
-    return DEPTHS[Math.max(0, Math.min(255, Math.round(255 * (this.by === "count" || this.by === "sd" ? 1 - part : part))))];
+    return depthColours()[Math.max(0, Math.min(255, Math.round(255 * (this.by === "count" || this.by === "sd" ? 1 - part : part))))];
   }
 
   /** A canvas of width x height pixels over an extent. */
@@ -119,6 +127,11 @@ class Cells {
   }
 }
 
+function lengthText([x0, y0]: number[], [x1, y1]: number[]): string {
+  const bearing = (Math.atan2(x1 - x0, y1 - y0) * 180 / Math.PI + 360) % 360;
+  return `${Math.hypot(x1 - x0, y1 - y0).toFixed(1)} m, grid bearing ${bearing.toFixed(1)}°`;
+}
+
 /** The map with its layers. */
 class Chart {
   cells = new Cells();
@@ -143,17 +156,19 @@ class Chart {
     },
   });
   private tracks = new VectorSource();
+  private plan = new VectorSource();
   private ruler = new VectorSource();
   private lines: globalThis.Map<string, { generation: number; line: LineString; place: Feature<Point> }> = new globalThis.Map();
   private fitted = false;
 
-  constructor(target: HTMLElement, moved: (at: number[] | null) => void, measured: (text: string) => void) {
+  constructor(private target: HTMLElement, moved: (at: number[] | null) => void, measured: (text: string) => void) {
     const ruler = new Draw({ source: this.ruler, type: "LineString", maxPoints: 2, condition: (event) => event.originalEvent.shiftKey, style: RULER });
     this.map = new Map({
       target, controls: controls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric" })]),
       layers: [
         new ImageLayer({ source: this.reliefSource }),
         new ImageLayer({ source: this.cellSource }),
+        new VectorLayer({ source: this.plan }),
         new VectorLayer({ source: this.tracks }),
         new VectorLayer({ source: this.ruler, style: RULER }),
       ],
@@ -162,12 +177,31 @@ class Chart {
     this.map.addInteraction(ruler);
     ruler.on("drawstart", () => this.ruler.clear());
     ruler.on("drawend", (event) => {
-      const [[x0, y0], [x1, y1]] = (event.feature.getGeometry() as LineString).getCoordinates();
-      const bearing = (Math.atan2(x1 - x0, y1 - y0) * 180 / Math.PI + 360) % 360;
-      measured(`${Math.hypot(x1 - x0, y1 - y0).toFixed(1)} m, grid bearing ${bearing.toFixed(1)}°`);
+      const [from, to] = (event.feature.getGeometry() as LineString).getCoordinates();
+      measured(lengthText(from, to));
     });
     this.map.on("pointermove", (event) => moved(event.coordinate));
     target.addEventListener("pointerleave", () => moved(null));
+    // By keyboard the middle is the cursor.
+    const middle = () => this.map.getView().getCenter()!;
+    const by_keys = () => document.activeElement === target && target.matches(":focus-visible");
+    this.map.on("moveend", () => by_keys() && moved(middle()));
+    target.addEventListener("focus", () => by_keys() && moved(middle()));
+    target.addEventListener("blur", () => moved(null));
+    target.addEventListener("keydown", (event) => {
+      if (event.key !== "m") return;
+      if (this.measureFrom) measured(this.measure(this.measureFrom, middle()));
+      else this.ruler.clear();
+      this.measureFrom = this.measureFrom ? null : middle();
+    });
+  }
+
+  private measureFrom: number[] | null = null;
+
+  private measure([x0, y0]: number[], [x1, y1]: number[]): string {
+    this.ruler.clear();
+    this.ruler.addFeature(new Feature(new LineString([[x0, y0], [x1, y1]])));
+    return lengthText([x0, y0], [x1, y1]);
   }
 
   /** Draws the cells in the colours that are wanted now. */
@@ -181,8 +215,29 @@ class Chart {
     return this.map.getView().getResolution() ?? 1;
   }
 
-  take(news: ConsoleCells | ConsoleRelief | ConsoleTrack) {
-    if ("shade" in news) {
+  private takePlan(news: ConsolePlan) {
+    this.plan.clear();
+    const { data } = news.line_enu_m;
+    for (let i = 0; i + 3 < data.length; i += 4) {
+      const line = new Feature(new LineString([[data[i], data[i + 1]], [data[i + 2], data[i + 3]]]));
+      line.setStyle(PLANNED);
+      this.plan.addFeature(line);
+    }
+    for (const { text, position_enu_m } of news.marks) {
+      const mark = new Feature(new Point(position_enu_m));
+      mark.setStyle(new Style({
+        image: new RegularShape({ points: 4, radius: 6, stroke: new Stroke({ color: PLAN, width: 2 }), angle: Math.PI / 4 }),
+        text: new Text({ text, offsetX: 10, textAlign: "left", fill: new Fill({ color: PLAN }), stroke: new Stroke({ color: "#101418", width: 3 }) }),
+      }));
+      this.plan.addFeature(mark);
+    }
+    this.target.dataset.plan = `${data.length / 4} ${news.marks.length}`; // for tests
+  }
+
+  take(news: ChartNews) {
+    if ("marks" in news) {
+      this.takePlan(news);
+    } else if ("shade" in news) {
       this.relief = new Relief(news);
       this.reliefSource.changed();
     } else if ("cell_m" in news) {
@@ -238,13 +293,13 @@ export function ChartPane() {
   const place = useRef<HTMLDivElement>(null);
   const chart = useRef<Chart | null>(null);
   const [at, setAt] = useState<number[] | null>(null);
-  const [by, setBy] = useState<Colours>("mean");
+  const by = colouredBy.value;
   const [ruler, setRuler] = useState("");
   const [, setNews] = useState(0);
   useEffect(() => {
     const made = new Chart(place.current!, setAt, setRuler);
     chart.current = made;
-    for (const kind of ["pointerdown", "wheel"]) place.current!.addEventListener(kind, () => made.keepView());
+    for (const kind of ["pointerdown", "wheel", "keydown"]) place.current!.addEventListener(kind, () => made.keepView());
     let news = 0;
     const close = watchChart((message) => {
       made.take(message);
@@ -258,24 +313,25 @@ export function ChartPane() {
   const cells = chart.current?.cells;
   const choose = (event: Event) => {
     const wanted = (event.target as HTMLSelectElement).value as Colours;
-    setBy(wanted);
-    chart.current?.recolour(wanted);
+    colouredBy.value = wanted;
   };
+  useEffect(() => chart.current?.recolour(by), [by, colours.value]);
   const cell = at && cells?.at(at[0], at[1]);
   const relief = chart.current?.relief;
   const contour = at && relief?.contourAt(at[0], at[1], 4 * chart.current!.metresPerPixel);
   return (
     <>
       <header>
-        <b>chart</b> <span style={{ color: ESTIMATE }}>estimate</span> <span style={{ color: TRUTH }}>truth</span>
+        <h2>chart</h2> <Swatch colour={ESTIMATE} /> estimate <Swatch colour={TRUTH} /> truth <Swatch colour={PLAN} /> plan
         {relief && relief.contourStep_m > 0 && ` · contours of the chart every ${relief.contourStep_m} m `}
         {cells && cells.soundings > 0 && ` · ${cells.soundings} soundings in cells of ${cells.cell_m} m, as many as this console has received`}
       </header>
-      <div ref={place} class="map" />
+      <div ref={place} class="map" tabIndex={0} role="application" aria-label="chart: arrows move it, + and - zoom, m measures from and to its middle" />
       <footer>
         <select aria-label="colours by" value={by} onChange={choose}>
           {Object.entries(WORDS).map(([key, words]) => <option key={key} value={key}>{words}</option>)}
         </select>
+        <ColourBar colours={depthColours()} label="colours from the least depth to the greatest" />
         {cells && `${fixed(cells.range[0])} to ${fixed(cells.range[1])}${by === "mean" || by === "shoalest" ? ", shoal is warm" : ""}`}
         <button onClick={() => chart.current?.fit()}>all</button>
         <span class="cursor">

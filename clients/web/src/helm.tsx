@@ -73,11 +73,11 @@ export function HelmPane() {
   return (
     <>
       <header>
-        <b>helm</b> by the estimate; headings from grid north
+        <h2>helm</h2> by the estimate; headings from grid north
         {m && ` · ${m.state}`}
         {onRunline && ` · line ${m.line + 1} of ${m.line_count}${m.line_name ? `, ${m.line_name}` : ""}`}
       </header>
-      <div class="helm">
+      <div class="helm" tabIndex={0}>
         {mission && (
           <>
             <div class="big">

@@ -43,7 +43,7 @@ export function LogsPane() {
   const value = (event: Event) => (event.target as HTMLInputElement | HTMLSelectElement).value;
   return (
     <>
-      <header><b>logs</b> newest below · {shown.length} of {lines.value.length} lines{atEnd.current ? "" : ", held where you read"}</header>
+      <header><h2>logs</h2> newest below · {shown.length} of {lines.value.length} lines{atEnd.current ? "" : ", held where you read"}</header>
       <div
         ref={place} class="log" tabIndex={0} role="log" aria-label="log lines"
         onScroll={({ currentTarget: t }) => (atEnd.current = t.scrollHeight - t.scrollTop - t.clientHeight < 8)}

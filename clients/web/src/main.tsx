@@ -1,12 +1,15 @@
 // The console's page.
 import { render } from "preact";
-import { answer, begin, connected, hasChart, hasLog, hasValues, send, shown, simTime_s, state, trouble, viewTopics } from "./store";
-import { Alarms } from "./alarms";
+import { acknowledgeAll, Alarms } from "./alarms";
 import { ChartPane } from "./chart";
-import { hasHelm, HelmPane } from "./helm";
+import { HelmPane } from "./helm";
+import { Key, Keys, listKeys } from "./keys";
+import { CHART, choose, HELM, layout, LAYOUT_NAMES, LOGS, names, nextLayout, NUMBERS, panes, toggle } from "./layouts";
+import { COLOURS, colours, light, LIGHTS, nextLight } from "./light";
 import { LogsPane } from "./logs";
 import { NumbersPane } from "./numbers";
 import { Head, HealthPane } from "./panes";
+import { answer, begin, connected, send, simTime_s, state, trouble } from "./store";
 
 const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
 
@@ -26,11 +29,19 @@ function Controls() {
   );
 }
 
+function Select({ label, of, chosen, choose: take }: { label: string; of: string[]; chosen: string; choose(name: string): void }) {
+  return (
+    <select aria-label={label} title={label} value={chosen} onChange={(e) => take((e.target as HTMLSelectElement).value)}>
+      {of.map((name) => <option key={name} value={name}>{name}</option>)}
+    </select>
+  );
+}
+
 function Bar() {
   const s = state.value!;
   return (
     <nav>
-      <b>Ensonify</b>
+      <h1>Ensonify</h1>
       <span title={s.launch}>{s.kind} {s.name}</span>
       <span class={`state ${s.state}`}>{s.state}</span>
       <span>t = {simTime_s.value.toFixed(1)} s</span>
@@ -42,6 +53,10 @@ function Bar() {
         {names().map((name) => (
           <label key={name}><input type="checkbox" checked={panes().includes(name)} onChange={() => toggle(name)} /> {name}</label>
         ))}
+        <Select label="layout" of={LAYOUT_NAMES} chosen={layout.value} choose={choose} />
+        <Select label="light" of={LIGHTS} chosen={light.value} choose={(name) => (light.value = name)} />
+        <Select label="colours" of={COLOURS} chosen={colours.value} choose={(name) => (colours.value = name)} />
+        <button aria-label="keys" title="keys" onClick={listKeys}>?</button>
         {s.items.length > 0 && (
           <select aria-label="open another run or record" value="" onChange={(e) => send("console_open/1", { id: (e.target as HTMLSelectElement).value })}>
             <option value="">open ...</option>
@@ -53,13 +68,6 @@ function Bar() {
   );
 }
 
-const CHART = "chart";
-const NUMBERS = "numbers";
-const HELM = "helm";
-const LOGS = "logs";
-const names = () => [...viewTopics().map((topic) => topic.name), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : []), ...(hasLog() ? [LOGS] : [])];
-const panes = () => shown.value ?? [...viewTopics().slice(0, 2).map((topic) => topic.name), ...(hasChart() ? [CHART] : [])];
-
 function pane(name: string) {
   if (name === CHART) return <ChartPane />;
   if (name === NUMBERS) return <NumbersPane />;
@@ -68,10 +76,16 @@ function pane(name: string) {
   return <Head topic={name} />;
 }
 
-function toggle(name: string) {
-  const now = panes();
-  shown.value = now.includes(name) ? now.filter((other) => other !== name) : [...now, name];
-}
+const pauseOrResume = () => state.value!.may_control && command(state.value!.state === "paused" ? "resume" : "pause");
+
+const keys = (): Key[] => [
+  { key: "?", does: "lists these keys", act: listKeys },
+  ...names().slice(0, 9).map((name, i) => ({ key: String(i + 1), does: `shows or hides ${name}`, act: () => toggle(name) })),
+  { key: "v", does: "next layout", act: nextLayout },
+  { key: "l", does: "day, dusk, night", act: nextLight },
+  ...(state.value!.may_control ? [{ key: " ", does: "pauses the run, resumes it", act: pauseOrResume }] : []),
+  { key: "a", does: "acknowledges all alarms", act: acknowledgeAll },
+];
 
 function Start() {
   const s = state.value!;
@@ -95,6 +109,7 @@ function Page() {
     <>
       <Bar />
       <Alarms />
+      <Keys keys={keys()} />
       <div class={`panes n${panes().length}`}>
         {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{pane(topic)}</section>)}
         <section class="pane health"><HealthPane /></section>

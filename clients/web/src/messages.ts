@@ -47,7 +47,7 @@ export interface ConsoleTopic {
   type: string;
   /** process that publishes it */
   publisher: string;
-  /** component of the publisher; empty: not known */
+  /** component of the publisher, of a record for heads alone; empty: not known */
   component: string;
 }
 
@@ -248,6 +248,20 @@ export interface ConsoleRelief {
   contour_m: Numbers<Float32Array>;
 }
 
+export interface ConsoleMark {
+  /** description of the mark */
+  text: string;
+  /** estimated position of the vehicle then: east, north (m) */
+  position_enu_m: number[];
+}
+
+export interface ConsolePlan {
+  /** runlines in the order run (line x 4): east and north of the start, then of the end (m) */
+  line_enu_m: Numbers<Float64Array>;
+  /** marks, the oldest first */
+  marks: ConsoleMark[];
+}
+
 export interface ConsoleEnter {
   /** token of the URL to view or to control */
   token: string;
@@ -264,6 +278,8 @@ export interface ConsoleWatched {
   spreading_db: number;
   /** absorption A of the gain to add, 0 to 1 (dB/m) */
   absorption_dbpm: number;
+  /** true for ranges on the ground, where the head's altitude is known */
+  ground: boolean;
 }
 
 export interface ConsoleWatch {
@@ -1335,6 +1351,10 @@ export interface View {
   position_enu_m: number[];
   /** estimated attitude of the head at transmission: quaternion w, x, y, z; all 0: not known (1) */
   enu_from_head: number[];
+  /** altitude above a level seabed by which ranges lie on the ground; 0: they are slant ranges (m) */
+  ground_altitude_m: number;
+  /** number of pictures that were left out so far because the run waited for the head (1) */
+  left_out: number;
   /** beam axes of the ping's valid detections; empty: none are known (rad) */
   find_angle_rad: Numbers<Float32Array>;
   /** slant range of each of these detections, by the head's own sound speed (m) */
@@ -1354,6 +1374,7 @@ export const TYPES: Record<string, string> = {
   "32acf0c61242d64d": "console_alarms/1",
   "d2524f5428f6d0d3": "console_log/1",
   "47dd42c4267b4152": "console_relief/1",
+  "c23a8d6933a1243c": "console_plan/1",
   "b60b0240eb9c24d7": "console_enter/1",
   "14328f1031e6e02e": "console_watch/1",
   "b0a7edc861915429": "console_drawn/1",

@@ -1,18 +1,20 @@
 // Numbers of any message over sim time. Those of one field and unit share a strip, so that an estimate stands beside the truth.
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { kept } from "./kept";
 import { ConsoleScalar, ConsoleTopic } from "./messages";
 import { ESTIMATE, TRUTH } from "./palette";
 import { news, seriesOf } from "./series";
 import { state, wantValues } from "./store";
 import { Line, Strip, valueAt } from "./strip";
+import { Swatch } from "./swatch";
 
 const OTHERS = ["#7fd6a4", "#f08fc0", "#c3b1ff", "#f2e06a", "#ff8a70", "#9fd0ff"];
 const MOST = 24; // numbers at once
 const pane = {};
 
 /** Numbers that are shown, TOPIC.field; null: those of the layout. */
-const chosen = signal<string[] | null>(null);
+const chosen = kept<string[] | null>("numbers", null, (value) => Array.isArray(value) && value.every((name) => typeof name === "string"));
 const pointed_s = signal<number | null>(null);
 
 interface Choice {
@@ -89,7 +91,7 @@ function StripView({ title, unit, lines, remove }: { title: string; unit: string
       <div class="stripTitle" title={title}>
         {lines.map(({ name, colour }) => (
           <span key={name}>
-            <span style={{ color: colour }}>{name}</span> <b data-number={name}>{shown(valueAt(seriesOf(name), at), unit)}</b>
+            <Swatch colour={colour} /> {name} <b data-number={name}>{shown(valueAt(seriesOf(name), at), unit)}</b>
             <button aria-label={`remove ${name}`} onClick={() => remove(name)}>×</button>
           </span>
         ))}
@@ -115,9 +117,9 @@ export function NumbersPane() {
   return (
     <>
       <header>
-        <b>numbers</b> over sim time, up to ten minutes{pointed_s.value != null && `, at ${pointed_s.value.toFixed(2)} s`}
+        <h2>numbers</h2> over sim time, up to ten minutes{pointed_s.value != null && `, at ${pointed_s.value.toFixed(2)} s`}
       </header>
-      <div class="strips">
+      <div class="strips" tabIndex={0}>
         {strips(names, all).map((strip) => <StripView key={strip.lines[0].name} {...strip} remove={remove} />)}
         {names.length === 0 && <p class="note">No number is chosen.</p>}
       </div>

@@ -2,7 +2,10 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { AScan } from "./ascan";
 import { FanPicture, FINDS } from "./fan";
-import { Limits, percentiles, RAMPS } from "./palette";
+import { kept as keptChoice } from "./kept";
+import { colours } from "./light";
+import { levelColours, Limits, percentiles } from "./palette";
+import { ColourBar, Swatch } from "./swatch";
 import { View } from "./messages";
 import { clock, flow, health, watch, wish } from "./store";
 import { Waterfall } from "./waterfall";
@@ -19,6 +22,31 @@ function Flow({ topic }: { topic: string }) {
       {fixed(f.rate_hz)} /s · {Math.round(f.age_s * 1000)} ms old · {f.lost} lost{f.halved > 0 && ` · width 1/${2 ** f.halved} for the link`}
     </span>
   );
+}
+
+/** Pictures that the head did not make. */
+function LeftOut({ view }: { view: View }) {
+  return view.left_out > 0 ? <span class="gaps">{view.left_out} pictures left out while the run waited for the head</span> : null;
+}
+
+/** Moves a cursor over a picture: by the pointer, and by the arrow keys where the picture has the focus. */
+function cursorOf(pointer: Pointer | null, move: (to: Pointer | null) => void) {
+  return {
+    tabIndex: 0, role: "img" as const,
+    onPointerMove: (event: PointerEvent) => move({ x: event.offsetX, y: event.offsetY }),
+    onPointerLeave: () => move(null),
+    onBlur: () => move(null),
+    onKeyDown: (event: KeyboardEvent) => {
+      const step = event.shiftKey ? 20 : 1;
+      const by: Record<string, [number, number]> = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+      const canvas = event.currentTarget as HTMLCanvasElement;
+      if (!by[event.key]) return;
+      event.preventDefault();
+      const from = pointer ?? { x: canvas.width / 2, y: canvas.height / 2 };
+      const inside = (value: number, size: number) => Math.max(0, Math.min(size - 1, value));
+      move({ x: inside(from.x + by[event.key][0], canvas.width), y: inside(from.y + by[event.key][1], canvas.height) });
+    },
+  };
 }
 
 /** Keeps a canvas as large as its place. */
@@ -52,31 +80,23 @@ function gainText(view: View): string {
 
 /** The colour scale, its ends set by hand or by the picture. */
 function Scale({ ramp, limits, view, set }: { ramp: string; limits: Limits | null; view: View; set(limits: Limits | null): void }) {
-  const colours = [0, 64, 128, 192, 255].map((i) => {
-    const pixel = RAMPS[ramp][i];
-    return `rgb(${pixel & 255},${(pixel >> 8) & 255},${(pixel >> 16) & 255})`;
-  });
   const change = (key: keyof Limits) => (event: Event) => {
     const value = Number((event.target as HTMLInputElement).value);
     if (limits && Number.isFinite(value)) set({ ...limits, [key]: value });
   };
-  const bar = useRef<HTMLCanvasElement>(null);
-  useEffect(() => {
-    const context = bar.current!.getContext("2d")!;
-    const gradient = context.createLinearGradient(0, 0, 120, 0);
-    colours.forEach((colour, i) => gradient.addColorStop(i / 4, colour));
-    context.fillStyle = gradient;
-    context.fillRect(0, 0, 120, 10);
-  }, [ramp]);
   return (
     <span class="scale">
       <input type="number" step="1" aria-label="level of the darkest colour, dB" value={fixed(limits?.low_db, 0)} onChange={change("low_db")} />
-      <canvas ref={bar} width={120} height={10} />
+      <ColourBar colours={levelColours(ramp)} label="colours of levels" />
       <input type="number" step="1" aria-label="level of the brightest colour, dB" value={fixed(limits?.high_db, 0)} onChange={change("high_db")} />
       dB re 1 µPa{gainText(view)} <button onClick={() => set(null)}>auto</button>
     </span>
   );
 }
+
+const showFinds = keptChoice("detections", true, (value) => typeof value === "boolean");
+const onGround = keptChoice("ground", false, (value) => typeof value === "boolean");
+const showScan = keptChoice("ascan", false, (value) => typeof value === "boolean");
 
 const WATERFALL_DB = 30; // added to waterfalls: a seabed that a pulse cuts has even levels then
 
@@ -85,15 +105,13 @@ interface Pointer {
   y: number;
 }
 
-const pointerOf = (event: PointerEvent): Pointer => ({ x: event.offsetX, y: event.offsetY });
-
 function Fan({ topic, first }: { topic: string; first: View }) {
   const [view, setView] = useState<View>(first);
   const [given, setGiven] = useState<Limits | null>(null);
   const [pointer, setPointer] = useState<Pointer | null>(null);
   const picture = useRef<FanPicture | null>(null);
-  const [finds, setFinds] = useState(true);
-  const [scan, setScan] = useState(false);
+  const finds = showFinds.value;
+  const scan = showScan.value;
   const [beam, setBeam] = useState(0);
   const kept = useRef<{ view: View; given: Limits | null; auto: Limits | null; finds: boolean }>({ view: first, given: null, auto: null, finds: true });
   kept.current.given = given;
@@ -104,7 +122,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     if (!limits || !picture.current) return;
     picture.current.draw(newest, limits);
     if (kept.current.finds) picture.current.drawFinds();
-    wish(topic, { cells: picture.current.cells, spreading_db: 0 });
+    wish(topic, { cells: picture.current.cells, spreading_db: 0, ground: false });
   };
   const canvas = useCanvas((element) => {
     picture.current ??= new FanPicture(element);
@@ -116,7 +134,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     if (found) kept.current.auto = auto ? { low_db: 0.9 * auto.low_db + 0.1 * found.low_db, high_db: 0.9 * auto.high_db + 0.1 * found.high_db } : found;
   };
   useEffect(
-    () => watch(topic, { cells: 1024, spreading_db: 0 }, {
+    () => watch(topic, { cells: 1024, spreading_db: 0, ground: false }, {
       take(newest) {
         if (newest.added_spreading_db === 0) kept.current.view = newest; // else made before it was known that this is a fan
       },
@@ -129,32 +147,31 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     }),
     [],
   );
-  useEffect(redraw, [given, finds]);
+  useEffect(redraw, [given, finds, colours.value]);
   const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
   const chooseBeam = (wanted: number) => {
     if (Number.isInteger(wanted) && wanted >= 0 && wanted < view.level.shape[0]) setBeam(wanted);
   };
-  const point = (event: PointerEvent) => {
-    const at = pointerOf(event);
+  const point = (at: Pointer | null) => {
     setPointer(at);
-    chooseBeam(picture.current?.placeOf(at.x, at.y)?.beam ?? -1); // it stays when the cursor leaves the fan
+    if (at) chooseBeam(picture.current?.placeOf(at.x, at.y)?.beam ?? -1); // it stays when the cursor leaves the fan
   };
   return (
     <>
       <header>
-        <b>{topic}</b> ping {view.ping} · {settings(view)} <Flow topic={topic} />
+        <h2>{topic}</h2> ping {view.ping} · {settings(view)} <Flow topic={topic} /> <LeftOut view={view} />
       </header>
-      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={point} onPointerLeave={() => setPointer(null)} />
+      <canvas ref={canvas} class="picture" data-topic={topic} aria-label={`fan of ${topic}`} {...cursorOf(pointer, point)} />
       {scan && <AScan view={view} beam={Math.min(beam, view.level.shape[0] - 1)} pointed_m={place && place.beam >= 0 ? place.range_m : null} gain={gainText(view)} />}
       <footer>
-        <label><input type="checkbox" checked={scan} onChange={() => setScan(!scan)} /> A-scan</label>
+        <label><input type="checkbox" checked={scan} onChange={() => (showScan.value = !scan)} /> A-scan</label>
         {scan && (
           <label>beam <input class="beam" type="number" min={0} max={view.level.shape[0] - 1} value={beam} onInput={(e) => chooseBeam(Number((e.target as HTMLInputElement).value))} /></label>
         )}
         <Scale ramp="inferno" limits={given ?? kept.current.auto} view={view} set={setGiven} />
         {view.find_range_m.data.length > 0 && (
           <label>
-            <input type="checkbox" checked={finds} onChange={() => setFinds(!finds)} /> detections: <span style={{ color: FINDS[1] }}>amplitude</span> <span style={{ color: FINDS[2] }}>phase</span>
+            <input type="checkbox" checked={finds} onChange={() => (showFinds.value = !finds)} /> detections: <Swatch colour={FINDS[1]} /> amplitude <Swatch colour={FINDS[2]} /> phase
           </label>
         )}
         <span class="cursor">
@@ -183,7 +200,7 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
   useEffect(() => {
     let newest = first;
     for (const line of early.splice(0)) fall.current?.add(line);
-    return watch(topic, { cells: 1024, spreading_db: WATERFALL_DB }, {
+    return watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value }, {
       take(line) {
         newest = line;
         fall.current?.add(line);
@@ -198,22 +215,29 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
     fall.current?.setLimits(given);
     fall.current?.draw();
   }, [given]);
+  useEffect(() => wish(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value }), [onGround.value]);
+  useEffect(() => {
+    fall.current?.repaint();
+    fall.current?.draw();
+  }, [colours.value]);
   const place = pointer && fall.current?.placeOf(pointer.x, pointer.y);
   const gaps = fall.current?.gaps ?? 0;
+  const kind = view.ground_altitude_m > 0 ? "ground" : "slant";
   return (
     <>
       <header>
-        <b>{topic}</b> ping {view.ping} · {settings(view)} <Flow topic={topic} /> {gaps > 0 && <span class="gaps">{gaps} pings did not come</span>}
+        <h2>{topic}</h2> ping {view.ping} · {settings(view)} <Flow topic={topic} /> <LeftOut view={view} /> {gaps > 0 && <span class="gaps">{gaps} pings did not come</span>}
       </header>
-      <canvas ref={canvas} class="picture" data-topic={topic} onPointerMove={(e) => setPointer(pointerOf(e))} onPointerLeave={() => setPointer(null)} />
+      <canvas ref={canvas} class="picture" data-topic={topic} aria-label={`waterfall of ${topic}`} {...cursorOf(pointer, setPointer)} />
       <footer>
+        <label title="by the altitude of the head's own bottom track, above a level seabed"><input type="checkbox" checked={onGround.value} onChange={() => (onGround.value = !onGround.value)} /> ground range</label>
         <Scale ramp="copper" limits={fall.current?.limits ?? null} view={view} set={setGiven} />
         <span class="cursor">
           {place
-            ? `${place.side}slant range ${fixed(place.range_m)} m, ping ${place.ping}, t = ${fixed(place.stamp_ns * 1e-9, 2)} s; ${fixed(place.level_db)} dB`
+            ? `${place.side}${place.kind} range ${fixed(place.range_m)} m, ping ${place.ping}, t = ${fixed(place.stamp_ns * 1e-9, 2)} s; ${fixed(place.level_db)} dB`
             : fall.current?.single
-              ? `slant range from 0 to ${fixed(fall.current.reach_m)} m; newest on top`
-              : `port · slant range, ${fixed(fall.current?.reach_m)} m to either side · starboard; newest on top`}
+              ? `${kind} range from 0 to ${fixed(fall.current.reach_m)} m; newest on top`
+              : `port · ${kind} range, ${fixed(fall.current?.reach_m)} m to either side · starboard; newest on top`}
         </span>
       </footer>
     </>
@@ -224,14 +248,14 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
 export function Head({ topic }: { topic: string }) {
   const early = useRef<View[]>([]); // until the pane is there that draws them
   const [first, setFirst] = useState<View | null>(null);
-  useEffect(() => watch(topic, { cells: 1024, spreading_db: WATERFALL_DB }, {
+  useEffect(() => watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: false }, {
     take(view) {
       early.current.push(view);
       setFirst((known) => known ?? view);
     },
     draw() {},
   }), []);
-  if (!first) return <header><b>{topic}</b> waits for a ping</header>;
+  if (!first) return <header><h2>{topic}</h2> waits for a ping</header>;
   return first.level.shape[0] > 2 ? <Fan topic={topic} first={first} /> : <Sidescan topic={topic} early={early.current} />;
 }
 
@@ -242,8 +266,8 @@ export function HealthPane() {
   const rows = Object.entries(health.value).sort(([a], [b]) => a.localeCompare(b));
   return (
     <>
-      <header><b>health</b> as the processes and the clock say</header>
-      <div class="scroll">
+      <header><h2>health</h2> as the processes and the clock say</header>
+      <div class="scroll" tabIndex={0}>
         {c && (
           <p>
             clock: {c.state}; {c.rate ? `${c.rate} x real time asked for, ` : "as fast as possible, "}

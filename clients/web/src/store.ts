@@ -1,6 +1,6 @@
 // What the page knows: signals that the panes show.
 import { signal } from "@preact/signals";
-import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleLog, ConsoleRelief, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
+import { ClockHealth, ConsoleAlarms, ConsoleAnswer, ConsoleCells, ConsoleFlow, ConsoleLog, ConsolePlan, ConsoleRelief, ConsoleTrack, ConsoleFlowTopic, ConsoleState, ConsoleTopic, ConsoleValues, Health, MissionState, View } from "./messages";
 import { clearAlarms, takeAlarms } from "./alarms";
 import { clearSeries, keepSeries, takeValues } from "./series";
 import { Frame, takeToken, Wire } from "./wire";
@@ -16,8 +16,6 @@ export const health = signal<Record<string, Health>>({});
 /** What missions are doing, by topic. */
 export const missions = signal<Record<string, MissionState>>({});
 export const clock = signal<ClockHealth | null>(null);
-/** Topics whose panes are shown; null: those of the layout. */
-export const shown = signal<string[] | null>(null);
 
 /** What a pane of a head draws. Returns once it is on the canvas. */
 export interface Drawer {
@@ -28,6 +26,7 @@ export interface Drawer {
 interface Wished {
   cells: number;
   spreading_db: number;
+  ground: boolean; // ranges on the ground
 }
 
 const drawers = new Map<string, Drawer>();
@@ -38,11 +37,12 @@ let frameAsked = false;
 
 /** Whether soundings or positions are published. */
 export const hasChart = () => (state.value?.topics ?? []).some((topic) => CHART.includes(topic.name));
-const CHART = ["cells", "track", "relief"];
-let chart: ((news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void) | null = null;
+export type ChartNews = ConsoleCells | ConsolePlan | ConsoleRelief | ConsoleTrack;
+const CHART = ["cells", "track", "relief", "plan"];
+let chart: ((news: ChartNews) => void) | null = null;
 
 /** Opens the chart's topics for a pane; the result closes them. */
-export function watchChart(take: (news: ConsoleCells | ConsoleRelief | ConsoleTrack) => void): () => void {
+export function watchChart(take: (news: ChartNews) => void): () => void {
   chart = take;
   watchAll();
   return () => {
@@ -94,7 +94,7 @@ export function viewTopics(): ConsoleTopic[] {
   return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
 }
 
-const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 });
+const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0, ground: false });
 
 function watchAll() {
   const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
@@ -122,7 +122,7 @@ export function watch(topic: string, wished: Wished, drawer: Drawer): () => void
 /** Another size or gain for a pane that is watching. */
 export function wish(topic: string, wished: Wished) {
   const now = wishes.get(topic);
-  if (!now || (now.cells === wished.cells && now.spreading_db === wished.spreading_db)) return;
+  if (!now || (now.cells === wished.cells && now.spreading_db === wished.spreading_db && now.ground === wished.ground)) return;
   wishes.set(topic, wished);
   watchAll();
 }
@@ -143,8 +143,8 @@ function take(frame: Frame) {
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
-  } else if (frame.type === "console_cells/1" || frame.type === "console_relief/1" || frame.type === "console_track/1") {
-    chart?.(frame.content as ConsoleCells | ConsoleRelief | ConsoleTrack);
+  } else if (frame.type === "console_cells/1" || frame.type === "console_relief/1" || frame.type === "console_plan/1" || frame.type === "console_track/1") {
+    chart?.(frame.content as ChartNews);
     if (frame.type === "console_track/1") simTime_s.value = Math.max(simTime_s.value, (frame.content as ConsoleTrack).stamp_ns * 1e-9);
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   } else if (frame.type === "console_values/1") {
@@ -172,7 +172,6 @@ function take(frame: Frame) {
       clearAlarms();
       clearSeries();
       simTime_s.value = 0;
-      shown.value = null;
     }
     state.value = fresh;
     watchAll();

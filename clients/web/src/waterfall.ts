@@ -72,7 +72,7 @@ export class Waterfall {
     this.repaint();
   }
 
-  private repaint() {
+  repaint() {
     const lines = this.lines.slice().reverse();
     this.head = 0;
     for (const line of lines) this.paint(line);
@@ -155,7 +155,8 @@ export class Waterfall {
     const cell = Math.min(cells - 1, Math.floor(Math.abs(part) * cells));
     const value = view.level.data[(part < 0 ? port : starboard) * cells + cell];
     return {
-      side: single ? "" : part < 0 ? "port, " : "starboard, ", range_m: view.first_range_m + Math.abs(part) * cells * view.cell_m, ping: line.ping,
+      side: single ? "" : part < 0 ? "port, " : "starboard, ", kind: view.ground_altitude_m > 0 ? "ground" : "slant",
+      range_m: view.first_range_m + Math.abs(part) * cells * view.cell_m, ping: line.ping,
       stamp_ns: view.stamp_ns, level_db: value ? view.level_floor_db + (value - 1) * view.level_step_db : null,
     };
   }
