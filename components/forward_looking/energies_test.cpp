@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <set>
 
 #include "components/forward_looking/head.h"
 #include "components/sonar/testing/config.h"
@@ -198,4 +199,36 @@ TEST_CASE("energies are what pings have in the mean over speckle and noise") {
   REQUIRE(counted > 10'000);
   CHECK_THAT(10.0 * std::log10(in_all / static_cast<double>(counted)), WithinAbs(0.0, 0.05));
   CHECK(static_cast<double>(off) < 1e-3 * static_cast<double>(counted));
+}
+
+TEST_CASE("without an object a ping is equal, bit by bit, in all samples that neither it nor its shadow reaches") {
+  ForwardLookingConfig config = plain();
+  config.labels = LabelKind::kNone;
+  config.effects.multipath = false;
+  config.effects.absorption = false;  // it follows from the mean depth of all that rays hit
+  const auto ping_with = [&](bool object) {
+    TileSet tiles(config.lod, kSpeed_mps / config.frequency_hz);
+    tiles.insert(tile_of(64.0, 0.5, [](double, double north) { return -13.0 - 0.02 * north; }));
+    tiles.insert(object_at(solids::Sphere{1.0}, {-1.0, 14.0, -12.2}, 2, false));
+    if (object) tiles.insert(object_at(solids::Sphere{0.5}, {0.5, 8.0, -12.8}, 1, false));
+    frames::PoseHistory truth{10'000'000'000};
+    truth.push(0, {kHead, frames::enu_from_ned()});
+    ForwardLooking head(config, 0);
+    auto report =
+        report_of(head, {0, SimTime{0}, config.range_m}, config.start(), around(truth, tiles.scene(), kSpeed_mps));
+    return std::get<0>(report.messages).value();
+  };
+  const msg::Ping with = ping_with(true), without = ping_with(false);
+  const auto sample = [&](double range_m) {
+    return static_cast<std::size_t>(2.0 * range_m / kSpeed_mps / with.sample_period_s);
+  };
+  std::set<std::size_t> different;
+  for (std::size_t beam = 0; beam < with.amplitude_upa.rows(); ++beam) {
+    for (std::size_t k = 0; k < with.amplitude_upa.cols(); ++k)
+      if (with.amplitude_upa(beam, k) != without.amplitude_upa(beam, k)) different.insert(k);
+  }
+  REQUIRE(!different.empty());
+  CAPTURE(*different.begin(), *different.rbegin(), sample(8.2), sample(11.0));
+  CHECK(*different.begin() > sample(7.8));
+  CHECK(*different.rbegin() < sample(11.0));
 }

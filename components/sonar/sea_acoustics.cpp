@@ -65,9 +65,13 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
     paths_.trace(seabed, pose, rays, range_m, refracted, hits);
   };
+  // Rays to the seabed are planned as if no body stood there: without one, those to the rest are the same.
+  const auto probe = [&](const trace::Rays& rays, trace::Hits& hits) {
+    paths_.trace(seabed, pose, rays, range_m, refracted, hits, trace::kAllBodies);
+  };
   const double wavelength_m = sound_speed_mps(pose) / frequency_hz_;
   distribution.aim(pose, shot.steer, {seabed, wavelength_m, cells.cell_m()}, static_cast<float>(range_m), refracted,
-                   trace, memory.plan);
+                   probe, memory.plan);
 
   const seabed::ClassTables& backscatter =
       environment_->backscatter(seabed.facet_mean_square_slope(), memory.facet_laws);

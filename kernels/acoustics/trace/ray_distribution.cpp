@@ -264,12 +264,13 @@ void RayDistribution::aim_beyond_probes(const Targets& targets, float max_range_
     parts[k] = {sines[i], sines[i + 1], angles_rad[j], angles_rad[j + 1], need(i, j, view)};
   });
   aim_at_facets(probes, targets.objects, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
+  const std::size_t to_facets = plan.facets_.rays.size();
   aim_at_bodies(probes, targets, {head, max_range_m, refracted}, plan.facets_, plan.to_facets_);
 
   const bool any = std::ranges::any_of(probe_hits.range_m, [](float range_m) { return range_m > 0.0F; });
-  // Those to bodies come whole: half of all is left to the others, however many they are.
-  const std::size_t most_rays = std::max(settings_.most_rays, 2 * plan.facets_.rays.size());
-  const auto most = static_cast<double>(most_rays - plan.facets_.rays.size());
+  // Those to facets come whole: half of all is left to the others, however many they are. Those to bodies come besides,
+  // so that none of the others depends on what stands there.
+  const auto most = static_cast<double>(std::max(settings_.most_rays, 2 * to_facets) - to_facets);
   const double fewest = any ? settings_.quality * static_cast<double>(settings_.fewest_rays) : 0.0;
   double share = 1.0;
   const auto draw = [&] {  // what falls within the cells varies by a per cent
