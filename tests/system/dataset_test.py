@@ -7,6 +7,8 @@ import subprocess
 import time
 import unittest
 
+import yaml
+
 from ensonify.dataset.check import leaks, rows_of
 from ensonify.labels.dataset import Dataset
 from support import BIN, SOURCE, SystemTest
@@ -27,12 +29,10 @@ class DatasetTest(SystemTest):
         return done.stdout + done.stderr
 
     def recipe(self, more="", of="forward_looking"):
-        """A shipped recipe with other keys, beside its own launch file."""
-        text = (RECIPES / f"{of}.yaml").read_text().replace(f"launch: {of}_launch", f"launch: {RECIPES}/{of}_launch")
-        for line in more.splitlines():
-            key = line.split(":")[0]
-            text = "\n".join(old for old in text.splitlines() if not old.startswith(f"{key}:")) + f"\n{line}\n"
-        return self.write("recipe.yaml", text)
+        """A shipped recipe with other keys."""
+        recipe = yaml.safe_load((RECIPES / f"{of}.yaml").read_text()) | yaml.safe_load(more or "{}")
+        recipe["launch"] = str(RECIPES / recipe["launch"])
+        return self.write("recipe.yaml", yaml.safe_dump(recipe))
 
     def test_a_set_is_the_same_however_it_is_made(self):
         recipe = self.recipe("formats: [coco, yolo, voc, masks, webdataset]\nsplits: { train: 0.5, val: 0.25, test: 0.25 }")
