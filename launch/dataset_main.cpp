@@ -135,7 +135,8 @@ class Progress {
 
 std::string why(const batch::Result& result, const std::string& log) {
   if (result.exit_code == batch::Result::kTimedOut) return "took longer than --timeout-s";
-  const std::string said = result.message.empty() ? launcher::tail(log, 5) : result.culprit + " " + result.message;
+  std::string said = launcher::tail(log, 5);
+  if (said.empty()) said = result.culprit + " " + result.message;
   return fmt::format("exit code {}: {}", result.exit_code, said);
 }
 
@@ -189,6 +190,7 @@ int make(const Options& options) {
   }
   std::vector<std::string> join{"join", options.out, "--pictures", std::to_string(options.pictures)};
   if (options.only) join.insert(join.end(), {"--only", std::to_string(*options.only)});
+  join.push_back("--sources");
   join.insert(join.end(), options.merge.begin(), options.merge.end());
   const int code = python(join);
   if (code == kExitOk && !options.keep) fs::remove_all(options.out + "/runs");

@@ -142,9 +142,9 @@ struct Recipe {
     visit("empty_share", "", in(0, 1), "share of pictures without an object", self.empty_share);
     visit("args", "", computed(any()), "arguments of the launch file, each a value or a distribution", self.args);
     visit("draw", "", computed(any()), "changes as of `--set`, by KEY, each a value or a distribution", self.draw);
-    visit("objects", "what is labelled, by names of your own", self.objects);
-    visit("clutter", "what stands about and is not labelled", self.clutter);
-    visit("place", "where things stand, or the middles of empty chips", self.place);
+    visit("objects", "things that are labelled, by names of your own", self.objects);
+    visit("clutter", "things that stand about and are not labelled", self.clutter);
+    visit("place", "places of things, or of the middles of empty chips", self.place);
     visit("picture", "form of a picture", self.picture);
     visit("splits", "shares of the scenes: a scene is on one side as a whole", self.splits);
     visit("formats", "", any(), "formats of labels: masks, coco, yolo, voc, webdataset", self.formats);

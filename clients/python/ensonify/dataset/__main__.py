@@ -19,7 +19,7 @@ def parser() -> argparse.ArgumentParser:
     all_of.add_argument("folder", help="folder of the set")
     all_of.add_argument("--pictures", type=int, required=True, help="number of pictures")
     all_of.add_argument("--only", type=int, help="this picture alone")
-    all_of.add_argument("sources", nargs="*", help="folders of shards")
+    all_of.add_argument("--sources", nargs="*", default=[], help="folders of shards")
     check = verbs.add_parser("check", help="find what is on two sides")
     check.add_argument("set", help="a set, or the folder that it stands in")
     return of

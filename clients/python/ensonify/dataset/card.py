@@ -26,6 +26,7 @@ class Card:
         self.recipe = recipe
         self.counts: dict = {}  # (split, class, "" of pictures without any): number
         self.pictures: dict = {}  # by split
+        self.not_seen: dict = {}  # by split, pictures made for an object that is not labelled in them
         self.values: dict = {}  # of each key, numbers
         self.words: dict = {}  # of each key, word: number
         self.examples: list = []  # (row, PNG, boxes, size): half of them with something in it
@@ -33,6 +34,8 @@ class Card:
     def add(self, row: dict, picture: Picture) -> None:
         split = row["split"]
         self.pictures[split] = self.pictures.get(split, 0) + 1
+        if row["kind"] and not row["shows"]:
+            self.not_seen[split] = self.not_seen.get(split, 0) + 1
         for name in [thing["class"] for thing in row["objects"]] or [""]:
             self.counts[split, name] = self.counts.get((split, name), 0) + 1
         for key, value in [*row["drawn"].items(), ("range of the head, m", row["settings"]["range_m"])]:
@@ -63,6 +66,7 @@ class Card:
         splits = [name for name in ("train", "val", "test") if name in self.pictures]
         rows = [("pictures", [self.pictures[split] for split in splits])]
         rows.append(("without an object", [self.counts.get((split, ""), 0) for split in splits]))
+        rows.append(("whose object is too small or hidden", [self.not_seen.get(split, 0) for split in splits]))
         rows += [(f"objects: {name}", [self.counts.get((split, name), 0) for split in splits]) for name in self.recipe["classes"]]
         body = "".join(f"<tr><td>{escape(what)}</td>{''.join(f'<td>{number}</td>' for number in [*numbers, sum(numbers)])}</tr>"
                        for what, numbers in rows)
@@ -82,11 +86,12 @@ def without_number(key: str) -> str:
 
 
 def histogram(title: str, numbers: list) -> str:
-    counts, edges = np.histogram(numbers, BINS)
+    least, most = min(numbers), max(numbers)
+    counts, _ = np.histogram(numbers, BINS, (least, most if most > least else least + 1))
     bars = "".join(f'<rect x="{10 * i}" y="{60 - 60 * count / counts.max():.1f}" width="9" height="{60 * count / counts.max():.1f}"/>'
                    for i, count in enumerate(counts))
     return (f"<figure><svg width={10 * BINS} height=60 fill='#479'>{bars}</svg><figcaption>{escape(title)}<br>"
-            f"{edges[0]:.4g} to {edges[-1]:.4g}, mean {np.mean(numbers):.4g}</figcaption></figure>")
+            f"{least:.4g} to {most:.4g}, mean {np.mean(numbers):.4g}</figcaption></figure>")
 
 
 def example(of: tuple) -> str:

@@ -92,8 +92,10 @@ def row_of(recipe: dict, scene: dict, sample: dict, picture: Picture) -> dict:
         content.update(pixels.tobytes())
     objects = [{"name": thing.name, "class": thing.class_name, "instance": thing.instance, "pixels": int(thing.mask.sum()),
                 "shadow_pixels": int(thing.shadow.sum()), "box": outlines.box(thing.mask), **thing.facts} for thing in picture.things]
+    slot = 0 if recipe["chip"] is None else sample["number"] % recipe["samples"]
+    shows = any(one["name"].startswith(f"{sample['kind']}_{slot}_") for one in objects) if sample["kind"] else False
     return {"picture": sample["number"], "name": picture.name, "split": scene["split"], "scene": scene["scene"], "id": scene["id"],
-            "seed": scene["seed"], "kind": sample["kind"], "place": sample["place"], "ground": scene["ground"], "sha256": content.hexdigest(),
+            "seed": scene["seed"], "kind": sample["kind"], "shows": shows, "place": sample["place"], "ground": scene["ground"], "sha256": content.hexdigest(),
             "drawn": scene["drawn"], "settings": picture.facts, "objects": objects}
 
 
