@@ -98,7 +98,8 @@ TEST_CASE("alarms and numbers ask for the topics that they are made of") {
   Scene scene;
   scene.desk.add(scene.flow);
   scene.watch({"alarms"});
-  CHECK(scene.wanted == std::set<std::string>{"bow/soundings", "fls/soundings", "nav/health", "side/bottom_track_main"});
+  CHECK(scene.wanted ==
+        std::set<std::string>{"bow/soundings", "fls/soundings", "nav/health", "side/bottom_track_main"});
   msg::ConsoleWatch wish;
   wish.topics = {{"values", 16, false, 0.0, 0.0}};
   wish.values = {"bow/ping.pings_per_s", "no/topic.x"};
@@ -187,7 +188,8 @@ TEST_CASE("a waterfall that is wished on the ground has the altitude of its own 
   Scene scene;
   scene.desk.add(scene.flow);
   msg::ConsoleWatch wish;
-  wish.topics = {{"side/view_main", 1024, false, 0.0, 0.0, true}};
+  wish.topics = {{"side/view_main", 1024, false, 0.0, 0.0}};
+  wish.ground = {"side/view_main"};
   scene.flow.watch(wish, scene.now);
   scene.desk.settle(scene.flow);
   CHECK(scene.wanted == std::set<std::string>{"side/bottom_track_main", "side/ping_main"});
