@@ -362,7 +362,6 @@ struct ConsoleWatched {
   bool peak = false;
   double spreading_db = 0.0;
   double absorption_dbpm = 0.0;
-  bool ground = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -371,7 +370,6 @@ struct ConsoleWatched {
     visit("peak", "", "choice of a cell's level: true its strongest sample", self.peak);
     visit("spreading_db", "dB", "S of the gain S log10(R) + 2 A R to add for display, 0 to 60", self.spreading_db);
     visit("absorption_dbpm", "dB/m", "absorption A of the gain to add, 0 to 1", self.absorption_dbpm);
-    visit("ground", "", "true for ranges on the ground, where the head's altitude is known", self.ground);
   }
 };
 
@@ -381,12 +379,15 @@ struct ConsoleWatch {
   bool hidden = false;
   std::vector<ConsoleWatched> topics;
   std::vector<std::string> values;
+  std::vector<std::string> ground;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("hidden", "", "true while nobody can see the page: nothing is sent to it", self.hidden);
     visit("topics", "", "topics, at most 64", self.topics);
     visit("values", "", "names of numbers (TOPIC.field) of the topic values, at most 32", self.values);
+    visit("ground", "", "topics of these whose ranges are to lie on the ground, where the head's altitude is known",
+          self.ground);
   }
 };
 

@@ -61,11 +61,6 @@ std::string view_topic_beside(const std::string& bottom_topic) {
   return at == std::string::npos ? "" : topic.replace(at, kBottomTrack.size(), kView);
 }
 
-bool wants_ground(const Flow& flow, const std::string& view_topic) {
-  return std::any_of(flow.watched().begin(), flow.watched().end(),
-                     [&](const msg::ConsoleWatched& watched) { return watched.ground && watched.topic == view_topic; });
-}
-
 /// A message that a desk has made.
 template <msg::Message M>
 msg::Packet packet_of(const char* topic, const M& message, std::uint64_t seq) {
@@ -118,7 +113,7 @@ void Desk::ask_source() {
              (soundings && wants_finds(*flow, process_of(topic))) ||
              (places_world(entry.second) && !(entry.second == msg::Chart::kType && has_relief_) &&
               flow->watches(kReliefTopic)) ||
-             (entry.second == msg::BottomTrack::kType && wants_ground(*flow, view_topic_beside(topic))) ||
+             (entry.second == msg::BottomTrack::kType && flow->wishes_ground(view_topic_beside(topic))) ||
              (plans(entry.second) && flow->watches(kPlanTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
     };

@@ -188,7 +188,8 @@ TEST_CASE("a waterfall that is wished on the ground has the altitude of its own 
   Scene scene;
   scene.desk.add(scene.flow);
   msg::ConsoleWatch wish;
-  wish.topics = {{"side/view_main", 1024, false, 0.0, 0.0, true}};
+  wish.topics = {{"side/view_main", 1024, false, 0.0, 0.0}};
+  wish.ground = {"side/view_main"};
   scene.flow.watch(wish, scene.now);
   scene.desk.settle(scene.flow);
   CHECK(scene.wanted == std::set<std::string>{"side/bottom_track_main", "side/ping_main"});

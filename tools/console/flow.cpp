@@ -33,7 +33,7 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
   for (const msg::ConsoleWatched& watched : wish_.topics) {
     Topic& topic = topics_[watched.topic];
     topic.wish = {static_cast<std::size_t>(watched.cells), watched.peak, watched.spreading_db, watched.absorption_dbpm,
-                  watched.ground};
+                  wishes_ground(watched.topic)};
   }
   answered_ = now;
 }
@@ -41,6 +41,10 @@ void Flow::watch(const msg::ConsoleWatch& wish, WallTime now) {
 bool Flow::watches(const std::string& topic) const {
   return std::any_of(wish_.topics.begin(), wish_.topics.end(),
                      [&](const auto& watched) { return watched.topic == topic; });
+}
+
+bool Flow::wishes_ground(const std::string& topic) const {
+  return std::find(wish_.ground.begin(), wish_.ground.end(), topic) != wish_.ground.end();
 }
 
 bool Flow::has_waiting(const std::string& topic) const {

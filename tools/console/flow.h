@@ -65,6 +65,9 @@ class Flow {
   /// Names of numbers, TOPIC.field.
   const std::vector<std::string>& values() const { return wish_.values; }
 
+  /// Its ranges are to lie on the ground.
+  bool wishes_ground(const std::string& topic) const;
+
   /// Something of this topic has not been sent yet.
   bool has_waiting(const std::string& topic) const;
 

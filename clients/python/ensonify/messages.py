@@ -475,7 +475,6 @@ class ConsoleWatched(Struct):
     peak: choice of a cell's level: true its strongest sample
     spreading_db [dB]: S of the gain S log10(R) + 2 A R to add for display, 0 to 60
     absorption_dbpm [dB/m]: absorption A of the gain to add, 0 to 1
-    ground: true for ranges on the ground, where the head's altitude is known
     """
 
     topic: str = ""
@@ -483,7 +482,6 @@ class ConsoleWatched(Struct):
     peak: bool = False
     spreading_db: float = 0.0
     absorption_dbpm: float = 0.0
-    ground: bool = False
 
 
 @dataclass(eq=False)
@@ -493,12 +491,14 @@ class ConsoleWatch(Message):
     hidden: true while nobody can see the page: nothing is sent to it
     topics: topics, at most 64
     values: names of numbers (TOPIC.field) of the topic values, at most 32
+    ground: topics of these whose ranges are to lie on the ground, where the head's altitude is known
     """
 
     TYPE = "console_watch/1"
     hidden: bool = False
     topics: list = list_of(ConsoleWatched)
     values: list = list_of(str)
+    ground: list = list_of(str)
 
 
 @dataclass(eq=False)

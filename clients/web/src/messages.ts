@@ -278,8 +278,6 @@ export interface ConsoleWatched {
   spreading_db: number;
   /** absorption A of the gain to add, 0 to 1 (dB/m) */
   absorption_dbpm: number;
-  /** true for ranges on the ground, where the head's altitude is known */
-  ground: boolean;
 }
 
 export interface ConsoleWatch {
@@ -289,6 +287,8 @@ export interface ConsoleWatch {
   topics: ConsoleWatched[];
   /** names of numbers (TOPIC.field) of the topic values, at most 32 */
   values: string[];
+  /** topics of these whose ranges are to lie on the ground, where the head's altitude is known */
+  ground: string[];
 }
 
 export interface ConsoleDrawn {

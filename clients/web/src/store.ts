@@ -94,16 +94,17 @@ export function viewTopics(): ConsoleTopic[] {
   return (state.value?.topics ?? []).filter((topic) => topic.type === "view/1");
 }
 
-const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0, ground: false });
+const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 });
 
 function watchAll() {
-  const heads = [...drawers.keys()].map((topic) => ({ topic, peak: false, absorption_dbpm: 0, ...wishes.get(topic)! }));
+  const heads = [...wishes].map(([topic, { cells, spreading_db }]) => ({ topic, cells, spreading_db, peak: false, absorption_dbpm: 0 }));
+  const ground = [...wishes].filter(([, wished]) => wished.ground).map(([topic]) => topic);
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
   const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
   const values = wantedValues();
   keepSeries(values);
   const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS, ...(log ? [LOG] : [])].map(plain);
-  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values });
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values, ground });
 }
 
 /** Opens a topic for a pane; the result closes it. */
