@@ -171,15 +171,15 @@ int make(const Options& options) {
   if (options.recipe.empty() || options.out.empty()) throw UserError("give RECIPE and --out DIR, or --check DIR");
   if (const int code = python({"ready"}); code != kExitOk) return code;
   const Drawing of = draw_all(options);
-  const launcher::OutFolder held(options.out);
   const std::vector<batch::Job> plan = jobs_of(of.recipe, of.scenes, of.base, options.out);
+  const std::vector<batch::Job> jobs = own_part(plan, options.shard);
+  const launcher::OutFolder held(options.out);
   const batch::Folder folder(options.out, plan);
   if (fs::exists(options.out + "/set/manifest.jsonl")) {
     fmt::print("{}/set is whole already\n", options.out);
     return kExitOk;
   }
   write_plan(of.recipe, of.scenes, plan, options.out, {options.keep, of.same_ground});
-  const std::vector<batch::Job> jobs = own_part(plan, options.shard);
   if (options.merge.empty()) {
     if (const int code = run_scenes(jobs, folder, options); code != kExitOk) return code;
     if (!options.shard.empty()) {
