@@ -8,6 +8,7 @@ import { defaults as controls } from "ol/control/defaults";
 import LineString from "ol/geom/LineString";
 import Point from "ol/geom/Point";
 import Draw from "ol/interaction/Draw";
+import { defaults as interactions } from "ol/interaction/defaults";
 import ImageLayer from "ol/layer/Image";
 import VectorLayer from "ol/layer/Vector";
 import Projection from "ol/proj/Projection";
@@ -164,7 +165,8 @@ class Chart {
   constructor(private target: HTMLElement, moved: (at: number[] | null) => void, measured: (text: string) => void) {
     const ruler = new Draw({ source: this.ruler, type: "LineString", maxPoints: 2, condition: (event) => event.originalEvent.shiftKey, style: RULER });
     this.map = new Map({
-      target, controls: controls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric" })]),
+      target, interactions: interactions({ onFocusOnly: false }), // the wheel and the mouse work wherever the keyboard is
+      controls: controls({ attribution: false, rotate: false }).extend([new ScaleLine({ units: "metric" })]),
       layers: [
         new ImageLayer({ source: this.reliefSource }),
         new ImageLayer({ source: this.cellSource }),
