@@ -2,6 +2,7 @@
 import io
 import os
 import pathlib
+import re
 import unittest
 
 import ensonify
@@ -143,9 +144,13 @@ class Light(BrowserTest):
         self.choose(page, "layout", "survey")
         picture = page.locator('canvas[data-topic="bow/view"]')
         picture.focus()
-        page.keyboard.press("Shift+ArrowDown")
         line = page.locator('.pane:has(canvas[data-topic="bow/view"]) .cursor')
-        self.assertRegex(line.inner_text(), r"range \d")
+
+        def pressed():  # the pane is new: until its first picture is there, there is nothing to walk on
+            page.keyboard.press("Shift+ArrowDown")
+            return re.search(r"range \d", line.inner_text())
+
+        self.wait_for(pressed)
         first = line.inner_text()
         page.keyboard.press("ArrowDown")
         self.wait_for(lambda: line.inner_text() != first)
