@@ -137,6 +137,7 @@ class Light(BrowserTest):
         self.assertEqual(page.evaluate("document.documentElement.dataset.light"), "night")
         page.keyboard.press("v")
         self.wait_for(lambda: page.get_by_label("layout", exact=True).input_value() == "sidescan")
+        self.wait_for(lambda: panes()[:2] == ["fish/view", "chart"])  # the record says which head is a sidescan
         page.keyboard.press(" ")
         page.wait_for_selector("text=resume")
         page.keyboard.press(" ")

@@ -39,6 +39,7 @@ class RecordSource : public Source {
     for (const record::Attachment& attachment : reader_->attachments()) {
       if (attachment.name == record::kDeclarationsName) heads_ = declared<msg::HeadDeclaration>(attachment.data);
     }
+    topics_.clear();  // listed as they were read, before it was known what publishes them
     list_topics();
   }
 
