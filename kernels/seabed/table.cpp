@@ -58,10 +58,17 @@ ClassTables::ClassTables(std::span<const Law> laws) {
     tables.emplace_back(law, steps_.per_octave());
     steps_ = tables.back().steps();  // the finest so far
   }
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    if (tables[i].steps().per_octave() < steps_.per_octave()) {
+  // A law that few steps give well enough may want more than the finest has: by chance none of the few fell on a bend.
+  for (bool alike = false; !alike;) {
+    alike = true;
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      if (tables[i].steps().per_octave() == steps_.per_octave()) continue;
       tables[i] = BackscatterTable(laws[i], steps_.per_octave());
+      alike = alike && tables[i].steps().per_octave() == steps_.per_octave();
+      steps_ = tables[i].steps();
     }
+  }
+  for (std::size_t i = 0; i < laws.size(); ++i) {
     row_start_[i] = static_cast<std::uint32_t>(values_.size());
     values_.insert(values_.end(), tables[i].values().begin(), tables[i].values().end());
   }

@@ -99,3 +99,29 @@ TEST_CASE("the class of a post chooses its table; an unknown class is the first"
   CHECK(tables.at_angle(2, 0.5F) == tables(2, std::sin(0.5F)));
   CHECK_THROWS_WITH(ClassTables(std::vector<Law>{}), "0 classes of seabed: allowed are 1 to 256");
 }
+
+TEST_CASE("all classes are right together, also where a finer table of one wants to be finer still") {
+  // Silt asks for few steps, cobble for twice as many, and of these silt for four times as many.
+  const SedimentParameters silt{1.149, 0.9885, 0.00676, 0.001, 3.25, 0.000518};
+  const SedimentParameters cobble{2.5, 1.8, 0.01374, 0.002, 3.25, 0.016};
+  int mixed = 0;
+  for (double slope = 0.0; slope < 0.01; slope += 0.0005) {
+    for (double other = 0.0005; other < 0.01; other += 0.001) {
+      const std::vector<Law> laws{law_of(MeshedSediment{silt, slope}, 600e3, 1490.0),
+                                  law_of(MeshedSediment{cobble, other}, 600e3, 1490.0)};
+      const ClassTables tables(laws);
+      const int coarse = std::max(BackscatterTable(laws[0], 8).steps().per_octave(),
+                                  BackscatterTable(laws[1], 8).steps().per_octave());
+      for (const Law& law : laws) mixed += BackscatterTable(law, coarse).steps().per_octave() > coarse ? 1 : 0;
+      for (std::uint8_t i = 0; i < 2; ++i) {
+        for (const double sine : {0.1, 0.3, 0.6, 0.9}) {
+          const double exact = laws[i](std::asin(sine));
+          INFO(slope << " " << other << " " << int{i} << " " << sine);
+          REQUIRE_THAT(10.0 * std::log10(static_cast<double>(tables(i, static_cast<float>(sine))) / exact),
+                       WithinAbs(0.0, 0.1));
+        }
+      }
+    }
+  }
+  CHECK(mixed > 0);
+}
