@@ -17,6 +17,7 @@ import sys
 
 from bus_benches import bench_free, bench_observers, bench_python, bench_round, bench_start, bench_stream
 from console_bench import bench_console
+from dataset_bench import bench_dataset
 from drive_bench import bench_drive
 from environment_bench import bench_environment
 from head_benches import bench_heads
@@ -42,7 +43,8 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "labels": bench_labels, "logger": bench_logger,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "labels": bench_labels,
+           "dataset": bench_dataset, "logger": bench_logger,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "kernels": bench_kernels}
 

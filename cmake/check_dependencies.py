@@ -68,7 +68,7 @@ SEES = {
     "scenarios": WORLD,
     "launch/file": TALK + FILES + ["scenarios/scenario_file.h"],
     "launch/process": TALK + FILES + ["scenarios/scenario_file.h", "launch/file", "kernels/base/profile"],
-    "launch/dataset": TALK + FILES + ["scenarios/scenario_file.h", "launch/file", "launch/batch", "launch/report.h", "kernels/base/random"],
+    "launch/dataset": TALK + FILES + ["scenarios/scenario_file.h", "launch/file", "launch/batch", "launch/child.h", "launch/report.h", "kernels/base/random"],
     "launch": SHARED,
     "tools": SHARED + ["launch"],
 }

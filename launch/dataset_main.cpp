@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <thread>
 
@@ -16,6 +18,7 @@
 #include "launch/batch/pool.h"
 #include "launch/batch/results.h"
 #include "launch/commands.h"
+#include "launch/dataset/picture_makers.h"
 #include "launch/dataset/plan.h"
 #include "launch/run_dir.h"
 #include "scenarios/world/world.h"
@@ -25,6 +28,8 @@ namespace {
 using namespace ensonify;
 using namespace ensonify::dataset;
 namespace fs = std::filesystem;
+
+constexpr std::size_t kRunsPerMaker = 4;  // at once: a run takes that much longer than its pictures
 
 struct Options {
   std::string recipe, out, shard, check;
@@ -64,7 +69,7 @@ int python(std::vector<std::string> words) {
   return launcher::run_to_end(command);
 }
 
-/// Draws the scenes, and reads the first scene's launch as a run will: what else decides the results, for its id.
+/// Draws the scenes, and reads the launches of the first one as runs will: what else decides the results, for its id.
 struct Drawing {
   Recipe recipe;
   std::vector<Scene> scenes;
@@ -74,16 +79,22 @@ struct Drawing {
 
 void read_first(Drawing& of, const std::string& out) {
   const Recipe& recipe = of.recipe;
+  const auto read = [&](const Scene& scene) {
+    const LaunchOptions options{.file = recipe.launch, .args = scene.args, .sets = scene.sets, .out = out};
+    return read_launch(options, [](ConfigReader& from, const std::string& scenario) { read_world(from, scenario); });
+  };
   const Scene first = draw_scene(recipe, 0);
-  LaunchOptions options{.file = recipe.launch, .args = first.args, .sets = first.sets, .out = out};
-  const Launch launch =
-      read_launch(options, [](ConfigReader& from, const std::string& scenario) { read_world(from, scenario); });
+  const Launch launch = read(first);
+  for (const Scene& pair : pairs_of(recipe, first)) read(pair);
   const auto head = std::ranges::find(launch.processes, recipe.head, &ProcessSpec::name);
   if (head == launch.processes.end())
     throw UserError(fmt::format("{}: head: {} has no process {}", recipe.file, recipe.launch, recipe.head));
   const ConfigNode* labels = head->config.root.find("labels");
   if (labels == nullptr || labels->scalar == "none")
     throw UserError(fmt::format("{}: head: {} has no `labels: masks` in {}", recipe.file, recipe.head, recipe.launch));
+  if (recipe.picture.mask == "response" && labels->scalar != "energies")
+    throw UserError(fmt::format("{}: picture.mask: response needs `labels: energies` of {}, and its topic recorded",
+                                recipe.file, recipe.head));
   of.base = batch::id_of(launch, program_folder());
   const ConfigNode* seabed = launch.scenario.document.root.find("seabed");
   of.same_ground = seabed == nullptr || seabed->find("kind") == nullptr || seabed->find("kind")->scalar != "layers";
@@ -99,7 +110,11 @@ Drawing draw_all(const Options& options) {
     throw UserError(
         fmt::format("{}: splits.{}: has none of {} scenes; more pictures, fewer `samples` or a larger share",
                     of.recipe.file, none[0], extent.scenes));
-  for (std::uint64_t i = 0; i < extent.scenes; ++i) of.scenes.push_back(draw_scene(of.recipe, extent.first_scene + i));
+  for (std::uint64_t i = 0; i < extent.scenes; ++i) {
+    const Scene scene = draw_scene(of.recipe, extent.first_scene + i);
+    of.scenes.push_back(scene);
+    std::ranges::move(pairs_of(of.recipe, scene), std::back_inserter(of.scenes));
+  }
   return of;
 }
 
@@ -140,30 +155,53 @@ std::string why(const batch::Result& result, const std::string& log) {
   return fmt::format("exit code {}: {}", result.exit_code, said);
 }
 
-/// Runs the scenes that are not done yet. The exit code of the first that fails, after which none is begun.
-int run_scenes(const std::vector<batch::Job>& jobs, const batch::Folder& folder, const Options& options) {
+/// Jobs whose pictures are there. What else has ended runs again.
+std::size_t count_done(const std::vector<batch::Job>& jobs, const batch::Folder& folder) {
   std::size_t done = 0;
   for (const batch::Job& job : jobs) {
     const auto result = folder.result_of(job);
-    if (result && !result->passed()) folder.undo(job);
-    if (result && result->passed()) ++done;
+    if (result && result->passed() && fs::exists(folder.run_of(job) + "/pictures.npz")) {
+      ++done;
+    } else if (result) {
+      folder.undo(job);
+    }
   }
+  return done;
+}
+
+/// Runs the scenes that are not done yet, and makes their pictures. The exit code of the first that fails, after which
+/// none is begun. scene_of: its line of the plan.
+int run_scenes(const std::vector<batch::Job>& jobs, const std::map<std::string, std::string>& scene_of,
+               const batch::Folder& folder, const Options& options) {
+  const std::size_t done = count_done(jobs, folder);
+  if (done == jobs.size()) return kExitOk;
   batch::PoolSettings settings{.at_once = options.jobs, .program_folder = program_folder(), .run_words = {"--free"}};
   settings.longest = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * options.timeout_s));
   Progress progress(jobs.size(), done);
+  PictureMakers makers(folder.path(), (options.jobs + kRunsPerMaker - 1) / kRunsPerMaker, options.keep);
   int code = kExitOk;
+  const auto pictures = [&](const auto& act) {
+    try {
+      act();
+    } catch (const ExitError& error) {
+      if (code == kExitOk) fmt::print(stderr, "{}\n", printable(error.what()));
+      if (code == kExitOk) code = error.code;
+    }
+  };
   const bool whole = batch::run_jobs(jobs, folder, settings, [&](const batch::Job& job) {
     const batch::Result result = *folder.result_of(job);
     if (result.passed()) {
       progress.one_more();
+      pictures([&] { makers.make(scene_of.at(job.id)); });
     } else if (code == kExitOk) {
       code = result.exit_code == batch::Result::kTimedOut ? int{kExitDied} : result.exit_code;
       fmt::print(stderr, "{}\n",
                  printable(fmt::format("{}: {}; logs: {}/log", job.label, why(result, folder.run_of(job) + "/run.err"),
                                        folder.run_of(job))));
     }
-    return result.passed();
+    return code == kExitOk;
   });
+  pictures([&] { makers.finish(); });
   return whole ? code : int{kExitInterrupted};
 }
 
@@ -171,7 +209,8 @@ int make(const Options& options) {
   if (options.recipe.empty() || options.out.empty()) throw UserError("give RECIPE and --out DIR, or --check DIR");
   if (const int code = python({"ready"}); code != kExitOk) return code;
   const Drawing of = draw_all(options);
-  const std::vector<batch::Job> plan = jobs_of(of.recipe, of.scenes, of.base, options.out);
+  const std::vector<batch::Job> plan = jobs_of(of.recipe, of.scenes, of.base);
+  const std::vector<std::string> lines = lines_of(of.scenes, plan, of.same_ground);
   const std::vector<batch::Job> jobs = own_part(plan, options.shard);
   const launcher::OutFolder held(options.out);
   const batch::Folder folder(options.out, plan);
@@ -179,9 +218,11 @@ int make(const Options& options) {
     fmt::print("{}/set is whole already\n", options.out);
     return kExitOk;
   }
-  write_plan(of.recipe, of.scenes, plan, options.out, {options.keep, of.same_ground});
+  write_plan(of.recipe, lines, options.out);
   if (options.merge.empty()) {
-    if (const int code = run_scenes(jobs, folder, options); code != kExitOk) return code;
+    std::map<std::string, std::string> scene_of;
+    for (std::size_t i = 0; i < plan.size(); ++i) scene_of[plan[i].id] = lines[i];
+    if (const int code = run_scenes(jobs, scene_of, folder, options); code != kExitOk) return code;
     if (!options.shard.empty()) {
       fmt::print("{} of {} scenes are in {}; `--merge` with the folders of all shards joins them\n", jobs.size(),
                  plan.size(), options.out);

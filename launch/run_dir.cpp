@@ -183,16 +183,20 @@ RunDir::~RunDir() {
   ::close(lock_fd_);
 }
 
-OutFolder::OutFolder(const std::string& path) {
+OutFolder::OutFolder(const std::string& path, std::chrono::milliseconds patience) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) {
     throw UserError(path + ": cannot be made: " + error.message() + "; choose another folder with --out");
   }
   fd_ = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(fd_);
-    throw UserError(path + ": another run puts its results there; choose another folder with --out");
+  constexpr std::chrono::milliseconds kStep{20};
+  for (; fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; patience -= kStep) {
+    if (patience <= kStep) {
+      ::close(fd_);
+      throw UserError(path + ": another run puts its results there; choose another folder with --out");
+    }
+    std::this_thread::sleep_for(kStep);
   }
 }
 

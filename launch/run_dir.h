@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <string>
 
 #include "components/runtime/run_finder.h"
@@ -36,8 +37,8 @@ class RunDir {
 /// their records and logs. Processes that we fork and that do not become another program hold it too.
 class OutFolder {
  public:
-  /// Throws UserError when it cannot be made, or when another run holds it.
-  explicit OutFolder(const std::string& path);
+  /// Throws UserError when it cannot be made, or when another run holds it for longer than `patience`.
+  explicit OutFolder(const std::string& path, std::chrono::milliseconds patience = {});
   ~OutFolder();
   OutFolder(const OutFolder&) = delete;
   OutFolder& operator=(const OutFolder&) = delete;

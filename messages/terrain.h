@@ -115,6 +115,7 @@ struct Object {
   bool smooth = false;
   std::int64_t sediment = 0;
   double buried = 0.0;
+  bool absent = false;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -135,6 +136,7 @@ struct Object {
           self.smooth);
     visit("sediment", "1", "sediment class of all of it", self.sediment);
     visit("buried", "1", "part of the volume, 0..1, below the height of the seabed at its middle", self.buried);
+    visit("absent", "", "absence: nothing hits it, and its box counts as if it stood there", self.absent);
   }
 };
 

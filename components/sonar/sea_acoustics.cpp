@@ -24,6 +24,17 @@ array::Directions part_of(const trace::VectorColumns<float>& directions, std::si
   return array::Directions{directions.x, directions.y, directions.z}.part(first, count);
 }
 
+std::optional<double> mean_depth_m(const trace::Hits& hits) {
+  double height_m = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits.hit(i)) continue;
+    height_m += hits.position_enu_m.z[i];
+    ++count;
+  }
+  return count > 0 ? std::optional(-height_m / count) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<double> altitude_m(const trace::Scene& seabed, const frames::HeadPose& head) {
@@ -65,9 +76,12 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   const auto trace = [&](const trace::Rays& rays, trace::Hits& hits) {
     paths_.trace(seabed, pose, rays, range_m, refracted, hits);
   };
-  // Rays to the seabed are planned as if no body stood there: without one, those to the rest are the same.
+  // Rays to the seabed are planned as if no body stood there, and losses follow from its depth alone: with or without
+  // a body, echoes of all the rest are the same.
+  std::optional<double> seabed_depth_m;
   const auto probe = [&](const trace::Rays& rays, trace::Hits& hits) {
     paths_.trace(seabed, pose, rays, range_m, refracted, hits, trace::kAllBodies);
+    seabed_depth_m = mean_depth_m(hits);
   };
   const double wavelength_m = sound_speed_mps(pose) / frequency_hz_;
   distribution.aim(pose, shot.steer, {seabed, wavelength_m, cells.cell_m()}, static_cast<float>(range_m), refracted,
@@ -89,7 +103,8 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
     cells.add(batch, memory.insonified);
   }
   const profile::Span span(profile::Stage::kMerge);
-  return {echo::SpeckleCells::gather(memory.insonified, memory.bodies.rough), memory.bodies.smooth, sums};
+  return {echo::SpeckleCells::gather(memory.insonified, memory.bodies.rough), memory.bodies.smooth, sums,
+          seabed_depth_m};
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.
@@ -99,14 +114,14 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
   const profile::Span span(profile::Stage::kEchoes);
-  const auto& [found, smooth, sums] = insonified;
+  const auto& [found, smooth, sums, seabed_depth_m] = insonified;
   const frames::HeadPose& pose = shot.pose();
   const double head_depth_m = -pose.position_enu_m.z();
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});
   Echoed echoed{.arrivals = memory.arrivals, .coherent = memory.coherent, .receivers = memory.receivers};
   echoed.rays_that_hit = sums.hits;
   echoed.rays_in_lobe = sums.in_lobe;
-  echoed.seabed_depth_m = sums.hits > 0 ? -sums.height_m / sums.hits : head_depth_m;
+  echoed.seabed_depth_m = seabed_depth_m.value_or(head_depth_m);
   echoed.absorption_dbpm =
       effects_.absorption ? environment_->absorption_dbpm(head_depth_m, echoed.seabed_depth_m) : 0.0;
   const echo::Carrier carrier{frequency_hz_, echoed.absorption_dbpm, sum()};
@@ -164,7 +179,6 @@ HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backsca
           const double power = transmitted[i - range.begin()];
           ++so_far.hits;
           so_far.in_lobe += power > kInLobe ? 1 : 0;
-          so_far.height_m += hits.position_enu_m.z[i];
           memory.source_upa2m2[i] = static_cast<float>(source * power);
           memory.backscatter[i] = backscatter(contributors[hits.contributor[i]].sediment, hits.sin_grazing[i]);
         }

@@ -116,7 +116,7 @@ struct Shot {
   double source_level_db = 0.0;
   std::span<const array::Pattern> transmit;  // of all transducers that send at once
   trace::RayDistribution::Steer steer = {};  // of the volume that its rays go to
-  /// So many rays are in memory at a time; a multiple of 16. No more depends on it than the rounding of the mean depth.
+  /// So many rays are in memory at a time; a multiple of 16. No result depends on it.
   std::size_t rays_per_batch = 16'384;
   /// After transmission. Nobody receives echoes that arrive later (latest_arrival_s).
   double latest_s = std::numeric_limits<double>::infinity();
@@ -129,14 +129,11 @@ inline double latest_arrival_s(const echo::Sampling& sampling, const echo::Pulse
   return sampling.start_s + sampling.count * sampling.period_s - pulse.start_s;
 }
 
-/// What rays hit.
+/// Number of rays that hit something.
 struct HitSums {
   int hits = 0, in_lobe = 0;
-  double height_m = 0.0;  // sum of z
 
-  HitSums operator+(const HitSums& other) const {
-    return {hits + other.hits, in_lobe + other.in_lobe, height_m + other.height_m};
-  }
+  HitSums operator+(const HitSums& other) const { return {hits + other.hits, in_lobe + other.in_lobe}; }
 };
 
 /// Seabed and bodies that a shot insonified.
@@ -144,6 +141,7 @@ struct Insonified {
   const echo::Scatterers& scatterers;
   const echo::Scatterers& smooth;  // facets of smooth bodies
   HitSums sums;
+  std::optional<double> seabed_depth_m;  // mean over what probes hit, as if no body stood there
 };
 
 /// Echoes of a shot, and what was found on the way. Amplitudes are pressures, or with speckle switched off mean
@@ -154,7 +152,7 @@ struct Echoed {
   const echo::Receivers& receivers;  // where the head receives
   echo::PairedArrivals paired;       // which of the arrivals add as pressures even without speckle
   double absorption_dbpm = 0.0;
-  double seabed_depth_m = 0.0;  // mean over the hits
+  double seabed_depth_m = 0.0;  // mean over what probes hit; the head's own where they hit nothing
   int rays_that_hit = 0, rays_in_lobe = 0;
 
   /// Summary for health.

@@ -65,6 +65,7 @@ void TileSet::insert(const msg::Object& object) {
   body.name = object.name;
   body.class_name = object.class_name;
   body.buried = object.buried;
+  body.absent = object.absent;
   body.enu_from_body = frames::quaternion_of(object.enu_from_object);
   scene_.insert_body(static_cast<std::uint32_t>(object.number), std::move(body));
 }

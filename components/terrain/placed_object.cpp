@@ -30,6 +30,7 @@ msg::Object message_of(const SceneObject& object) {
   message.enu_from_object = frames::wxyz_of(frames::Quaternion(object.place.enu_from_object()));
   message.smooth = object.smooth;
   message.sediment = object.sediment;
+  message.absent = object.absent;
   return message;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "launch/child.h"
+#include "launch/run_dir.h"
 
 namespace ensonify::batch {
 namespace {
@@ -69,7 +70,9 @@ class Pool {
 
  private:
   void start(const Job& job) {
-    launcher::make_folder(folder_.run_of(job));
+    {  // a run of a batch that was killed may still be ending there
+      const launcher::OutFolder ours(folder_.run_of(job), kGrace);
+    }
     const Clock::time_point now = Clock::now();
     running_.push_back(
         {&job, std::make_unique<launcher::Child>(command_of(job, folder_, settings_)), now, now + settings_.longest});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -125,6 +126,8 @@ TEST_CASE("what is wrong with a recipe is said with its place") {
              Contains("is not a list of 2 numbers of 0 or more, one of them over 0"));
   CHECK_THAT(error_of(kGood + "draw: { a.b: { integer: [0, 2.5] } }\n"), Contains("2.5 is not a whole number"));
   CHECK_THAT(error_of(kGood + "draw: { seed: 4 }\n"), Contains("draw.seed: is drawn for each scene by itself"));
+  CHECK_THAT(error_of(kGood + "pairs: { bare: {} }\n"), Contains("pairs.bare: changes nothing; allowed: `without`"));
+  CHECK_THAT(error_of(kGood + "pairs: { bare: { draw: { seed: 4 } } }\n"), Contains("pairs.bare.draw.seed: is drawn"));
   CHECK_THAT(error_of(kGood + "formats: [coco, yollo]\n"), Contains("yollo is not a format; did you mean yolo?"));
   CHECK_THAT(error_of(kGood + "splits: { train: 0.5, val: 0.1, test: 0.1 }\n"),
              Contains("splits: train, val and test are 0.7 together; allowed: 1"));
@@ -230,6 +233,34 @@ TEST_CASE("a recipe without room says which constraint fails most") {
                             "empty_share: 0\nclutter: { tyre: { count: 40, object: { tyre: {} } } }\n"
                             "place: { east_m: { uniform: [0, 4] }, north_m: { uniform: [0, 4] }, apart_m: 2 }\n";
   CHECK_THROWS_WITH(draw_scene(recipe_of(crowd), 0), Contains("fail by apart_m"));
+}
+
+TEST_CASE("a pair is the same scene but for what its recipe says") {
+  const std::string rest = "empty_share: 0\nclutter: { tyre: { object: { tyre: {} } } }\n";
+  const Recipe recipe =
+      recipe_of(kGood + rest +
+                "pairs:\n"
+                "  bare: { without: objects }\n"
+                "  muddy: { draw: { seabed.sediments.0: { one_of: [mud, silt] } }, without: clutter }\n");
+  const Scene scene = draw_scene(recipe, 5);
+  CHECK(text_of(scene) == text_of(draw_scene(recipe_of(kGood + rest), 5)));
+  REQUIRE(scene.things.size() == 2);
+  const std::vector<Scene> pairs = pairs_of(recipe, scene);
+  REQUIRE(pairs.size() == 2);
+  for (const Scene& pair : pairs) {
+    CHECK(std::equal(scene.sets.begin(), scene.sets.end(), pair.sets.begin()));
+    CHECK(pair.split == scene.split);
+    CHECK(pair.seed == scene.seed);
+  }
+  CHECK(pairs[0].pair == "bare");
+  CHECK(pairs[0].sets.size() == scene.sets.size() + 1);
+  CHECK(pairs[0].sets.back() == "objects." + scene.things[0].name + ".absent=true");
+  CHECK(pairs[0].samples[0].kind.empty());
+  CHECK(pairs[1].sets.size() == scene.sets.size() + 2);
+  CHECK_THAT(pairs[1].sets[scene.sets.size()],
+             Contains("seabed.sediments.0=\"mud\"") || Contains("seabed.sediments.0=\"silt\""));
+  CHECK(pairs[1].sets.back() == "objects." + scene.things[1].name + ".absent=true");
+  CHECK(pairs[1].samples[0].kind == scene.samples[0].kind);
 }
 
 TEST_CASE("chips stand one step apart, each with its own kind") {

@@ -12,22 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string absolute(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
-
-/// Goes on from the recipe's launch: pictures are made of each run as soon as it has ended.
-std::string launch_of(const Recipe& recipe, const std::string& folder, bool keep) {
-  Json args = {{"scene", nullptr}}, given = Json::object();
-  for (const auto& entry : recipe.args.tree.entries) {
-    args[entry.key] = nullptr;
-    given[entry.key] = "$(" + entry.key + ")";
-  }
-  Json pictures = {"python3", "-m", "ensonify.dataset", "scene", absolute(folder), "$(scene)", "$(out)"};
-  if (keep) pictures.push_back("--keep");
-  const Json include = {{"file", absolute(recipe.launch)}, {"args", given}};
-  return "ensonify: launch/1\nargs: " + args.dump() + "\ninclude: " + Json::array({include}).dump() +
-         "\nafter: " + Json::array({pictures}).dump() + "\n";
-}
-
 Json json_of(const Recipe& recipe) {
   Json names = Json::array();
   for (const std::string& name : recipe.classes()) names.push_back(name);
@@ -37,6 +21,7 @@ Json json_of(const Recipe& recipe) {
                {"samples", recipe.samples},
                {"formats", recipe.formats},
                {"view", picture.view},
+               {"mask", picture.mask},
                {"box", picture.box},
                {"first", picture.first_ping},
                {"every", picture.every},
@@ -64,14 +49,9 @@ Json json_of(const Scene& scene, const std::string& id, bool same_ground) {
                       {"place", thing.place},
                       {"object", Json::parse(to_json(thing.object))}});
   for (const auto& [key, value] : scene.drawn) drawn[key] = Json::parse(to_json(value));
-  return {{"scene", scene.number},
-          {"id", id},
-          {"split", scene.split},
-          {"seed", scene.seed},
-          {"ground", same_ground ? 0 : scene.seed},
-          {"samples", samples},
-          {"things", things},
-          {"drawn", drawn}};
+  return {{"scene", scene.number}, {"pair", scene.pair}, {"id", id},
+          {"split", scene.split},  {"seed", scene.seed}, {"ground", same_ground ? 0 : scene.seed},
+          {"samples", samples},    {"things", things},   {"drawn", drawn}};
 }
 
 }  // namespace
@@ -85,30 +65,33 @@ Extent Extent::around(const Recipe& recipe, std::uint64_t number) {
   return {1, number / static_cast<std::uint64_t>(recipe.samples), 1};
 }
 
-std::vector<batch::Job> jobs_of(const Recipe& recipe, const std::vector<Scene>& scenes, const std::string& base,
-                                const std::string& folder) {
+std::vector<batch::Job> jobs_of(const Recipe& recipe, const std::vector<Scene>& scenes, const std::string& base) {
   std::vector<batch::Job> jobs;
   for (const Scene& scene : scenes) {
     batch::Job job;
-    job.label = "scene " + std::to_string(scene.number);
-    job.options.file = folder + "/launch.yaml";
+    const std::string number = std::to_string(scene.number);
+    job.label = "scene " + number + (scene.pair.empty() ? "" : " " + scene.pair);
+    job.options.file = std::filesystem::absolute(recipe.launch).lexically_normal().string();
     job.options.args = scene.args;
-    job.options.args.push_back("scene=" + std::to_string(scene.number));
     job.options.sets = scene.sets;
-    job.id = batch::id_of({base, recipe.text, std::to_string(scene.number)});
+    job.id = batch::id_of({base, recipe.text, number, scene.pair});
     jobs.push_back(std::move(job));
   }
   return jobs;
 }
 
-void write_plan(const Recipe& recipe, const std::vector<Scene>& scenes, const std::vector<batch::Job>& jobs,
-                const std::string& folder, const PlanOptions& options) {
-  launcher::write_text(folder + "/launch.yaml", launch_of(recipe, folder, options.keep));
+std::vector<std::string> lines_of(const std::vector<Scene>& scenes, const std::vector<batch::Job>& jobs,
+                                  bool same_ground) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scenes.size(); ++i) lines.push_back(json_of(scenes[i], jobs[i].id, same_ground).dump());
+  return lines;
+}
+
+void write_plan(const Recipe& recipe, const std::vector<std::string>& lines, const std::string& folder) {
   launcher::write_text(folder + "/recipe.json", json_of(recipe).dump(1) + "\n");
-  std::string lines;
-  for (std::size_t i = 0; i < scenes.size(); ++i)
-    lines += json_of(scenes[i], jobs[i].id, options.same_ground).dump() + "\n";
-  launcher::write_text(folder + "/scenes.jsonl", lines);
+  std::string all;
+  for (const std::string& line : lines) all += line + "\n";
+  launcher::write_text(folder + "/scenes.jsonl", all);
 }
 
 }  // namespace ensonify::dataset

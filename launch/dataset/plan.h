@@ -20,18 +20,16 @@ struct Extent {
   static Extent around(const Recipe& recipe, std::uint64_t number);
 };
 
-/// The launches of these scenes. `base`: what else decides their results, id_of() the recipe's launch. They are written
-/// as `folder`/launch.yaml with arguments.
-std::vector<batch::Job> jobs_of(const Recipe& recipe, const std::vector<Scene>& scenes, const std::string& base,
-                                const std::string& folder);
+/// The launches of these scenes. `base`: what else decides their results, id_of() the recipe's launch.
+std::vector<batch::Job> jobs_of(const Recipe& recipe, const std::vector<Scene>& scenes, const std::string& base);
 
-/// Writes into the folder what the jobs and who joins their pictures read: launch.yaml; recipe.json, the recipe as it
-/// counts for pictures; scenes.jsonl, a scene in each line.
-struct PlanOptions {
-  bool keep = false;         // runs keep their records
-  bool same_ground = false;  // the seabed of all scenes is one, whatever their seed
-};
-void write_plan(const Recipe& recipe, const std::vector<Scene>& scenes, const std::vector<batch::Job>& jobs,
-                const std::string& folder, const PlanOptions& options);
+/// Scenes as who makes their pictures reads them: a line of JSON for each. same_ground: their seabed is one, whatever
+/// their seed.
+std::vector<std::string> lines_of(const std::vector<Scene>& scenes, const std::vector<batch::Job>& jobs,
+                                  bool same_ground);
+
+/// Writes into the folder what who makes pictures reads: recipe.json, the recipe as it counts for pictures;
+/// scenes.jsonl, these lines.
+void write_plan(const Recipe& recipe, const std::vector<std::string>& lines, const std::string& folder);
 
 }  // namespace ensonify::dataset

@@ -52,27 +52,27 @@ TEST_CASE("pictures need so many scenes, and one picture its own") {
 
 TEST_CASE("a scene's job is the same in every plan that has it, and another for another recipe") {
   const Recipe recipe = recipe_of("samples: 4\n"), other = recipe_of("samples: 4\npicture: { least_pixels: 3 }\n");
-  const auto all = jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 12)), "base", "a");
-  const auto one = jobs_of(recipe, scenes_of(recipe, Extent::around(recipe, 9)), "base", "b");
+  const auto all = jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 12)), "base");
+  const auto one = jobs_of(recipe, scenes_of(recipe, Extent::around(recipe, 9)), "base");
   CHECK(one[0].id == all[2].id);
   CHECK(one[0].options.sets == all[2].options.sets);
   CHECK(one[0].options.args == all[2].options.args);
   CHECK(all[0].id != all[1].id);
-  CHECK(jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 1)), "other base", "a")[0].id != all[0].id);
-  CHECK(jobs_of(other, scenes_of(other, Extent::of(other, 1)), "base", "a")[0].id != all[0].id);
+  CHECK(jobs_of(recipe, scenes_of(recipe, Extent::of(recipe, 1)), "other base")[0].id != all[0].id);
+  CHECK(jobs_of(other, scenes_of(other, Extent::of(other, 1)), "base")[0].id != all[0].id);
 }
 
-TEST_CASE("a plan's launch goes on from the recipe's, with its arguments") {
+TEST_CASE("a plan has a line for each scene and each of its pairs") {
   const Scratch scratch;
-  const Recipe recipe = recipe_of("");
-  const auto scenes = scenes_of(recipe, Extent::of(recipe, 2));
-  write_plan(recipe, scenes, jobs_of(recipe, scenes, "base", scratch.path), scratch.path, {});
-  const std::string launch = scratch.text("launch.yaml");
-  CHECK_THAT(launch, Contains(R"(args: {"scene":null,"seconds":null})"));
-  CHECK_THAT(launch, Contains(R"x("args":{"seconds":"$(seconds)"})x"));
-  CHECK_THAT(launch, Contains(R"x("$(scene)","$(out)"])x"));
-  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\n{\"scene\":1,"));
+  const Recipe recipe = recipe_of("pairs: { bare: { without: objects } }\n");
+  std::vector<Scene> scenes = scenes_of(recipe, Extent::of(recipe, 2));
+  scenes.push_back(pairs_of(recipe, scenes[1])[0]);
+  const auto jobs = jobs_of(recipe, scenes, "base");
+  CHECK(jobs[2].label == "scene 1 bare");
+  CHECK(jobs[2].id != jobs[1].id);
+  write_plan(recipe, lines_of(scenes, jobs, false), scratch.path);
+  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\n{\"scene\":1,\"pair\":\"\","));
+  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\n{\"scene\":1,\"pair\":\"bare\","));
   CHECK_THAT(scratch.text("scenes.jsonl"), !Contains("\"ground\":0"));
-  write_plan(recipe, scenes, jobs_of(recipe, scenes, "base", scratch.path), scratch.path, {.same_ground = true});
-  CHECK_THAT(scratch.text("scenes.jsonl"), Contains("\"ground\":0"));
+  CHECK_THAT(lines_of(scenes, jobs, true)[0], Contains("\"ground\":0"));
 }

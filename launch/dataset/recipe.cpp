@@ -22,10 +22,19 @@ void check_map(const ConfigReader& from, const char* key, const Drawn& drawn, co
   if (drawn.given() && !drawn.tree.is_map()) from.problem(key, "is not a map from " + what);
 }
 
+void check_draw(const ConfigReader& from, const Drawn& draw) {
+  check_map(from, "draw", draw, "KEY, as of --set, to values");
+  if (draw.tree.find("seed") != nullptr) from.problem("draw.seed", "is drawn for each scene by itself");
+}
+
+void check_name(const ConfigReader& from, const std::string& name) {
+  if (!is_name(name)) from.problem("", "is not a name; allowed: up to 32 of a-z, 0-9 and _");
+}
+
 }  // namespace
 
 void Kind::check(const ConfigReader& from) const {
-  if (!is_name(name)) from.problem("", "is not a name; allowed: up to 32 of a-z, 0-9 and _");
+  check_name(from, name);
   if (!object.given()) return;
   if (!object.tree.is_map()) return from.problem("object", "is not a map of an object's keys");
   for (const char* own : {"class", "strewn", "position_m"}) {
@@ -41,6 +50,13 @@ void Sector::check(const ConfigReader& from) const {
     from.problem("range_m", fmt::format("{} is over {}; allowed: [least, most]", range_m[0], range_m[1]));
 }
 
+void PairKeys::check(const ConfigReader& from) const {
+  check_name(from, name);
+  check_draw(from, draw);
+  if (without == Without::kNothing && draw.tree.entries.empty())
+    from.problem("", "changes nothing; allowed: `without`, `draw` or both");
+}
+
 void Splits::check(const ConfigReader& from) const {
   if (const double sum = train + val + test; std::abs(sum - 1.0) > 1e-9)
     from.problem("", fmt::format("train, val and test are {:g} together; allowed: 1", sum));
@@ -48,8 +64,7 @@ void Splits::check(const ConfigReader& from) const {
 
 void Recipe::check(const ConfigReader& from) const {
   check_map(from, "args", args, "arguments to values");
-  check_map(from, "draw", draw, "KEY, as of --set, to values");
-  if (draw.tree.find("seed") != nullptr) from.problem("draw.seed", "is drawn for each scene by itself");
+  check_draw(from, draw);
   if (objects.empty() && empty_share < 1.0)
     from.problem("objects", "is empty; allowed: one or more, or empty_share: 1");
   for (const std::string& name : classes()) {
@@ -61,6 +76,8 @@ void Recipe::check(const ConfigReader& from) const {
     if (std::ranges::any_of(objects, [&](const Kind& other) { return other.name == kind.name; }))
       from.problem("clutter." + kind.name, "is a name of objects too");
   }
+  if (picture.chip && picture.mask == "response")
+    from.problem("picture.mask", "response is of whole pings; allowed of chips: geometry");
   if (formats.empty()) from.problem("formats", "is empty; allowed: " + fmt::format("{}", fmt::join(kFormats, ", ")));
   for (const std::string& one : formats) {
     if (std::ranges::find(kFormats, one) != kFormats.end()) continue;

@@ -87,7 +87,7 @@ struct Chip {
 
 struct PictureKeys {
   std::optional<Chip> chip;
-  std::string view = "polar", box = "object";
+  std::string view = "polar", mask = "geometry", box = "object";
   int first_ping = 1, every = 1, least_pixels = 9;
   double white_db = -30.0, range_db = 55.0;
 
@@ -97,10 +97,36 @@ struct PictureKeys {
     visit("first_ping", "", in(0, 1e6), "ping of a scene's first picture", self.first_ping);
     visit("every", "", in(1, 1e6), "number of pings from one picture to the next", self.every);
     visit("least_pixels", "", in(1, 1e6), "pixels of its mask from which on a thing is labelled", self.least_pixels);
+    visit("mask", "", one_of({"geometry", "response"}),
+          "pixels of a thing: those that it covers, or of which it sends at least half (needs `labels: energies`)",
+          self.mask);
     visit("box", "", one_of({"object", "object+shadow", "shadow"}), "part that a box goes round", self.box);
     visit("white_db", "dB", in(-200, 100), "level of white behind the gain, over the source level", self.white_db);
     visit("range_db", "dB", in(1, 200), "decibels from black to white", self.range_db);
   }
+};
+
+/// What is otherwise in a second picture of the same scene.
+struct PairKeys {
+  enum class Without { kNothing, kObjects, kClutter, kBoth };
+  std::string name;
+  static constexpr auto kNamedBy = &PairKeys::name;
+  Without without = Without::kNothing;
+  Drawn draw;
+
+  bool without_objects() const { return without == Without::kObjects || without == Without::kBoth; }
+  bool without_clutter() const { return without == Without::kClutter || without == Without::kBoth; }
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("without", "",
+          one_of({{"nothing", Without::kNothing},
+                  {"objects", Without::kObjects},
+                  {"clutter", Without::kClutter},
+                  {"both", Without::kBoth}}),
+          "things that are not there", self.without);
+    visit("draw", "", computed(any()), "changes as of `--set`, by KEY, each a value or a distribution", self.draw);
+  }
+  void check(const ConfigReader& from) const;
 };
 
 /// Shares of the scenes.
@@ -124,6 +150,7 @@ struct Recipe {
   double empty_share = 0.65;
   Drawn args, draw;
   std::vector<Kind> objects, clutter;
+  std::vector<PairKeys> pairs;
   PlaceKeys place;
   PictureKeys picture;
   Splits splits;
@@ -144,6 +171,7 @@ struct Recipe {
     visit("draw", "", computed(any()), "changes as of `--set`, by KEY, each a value or a distribution", self.draw);
     visit("objects", "things that are labelled, by names of your own", self.objects);
     visit("clutter", "things that stand about and are not labelled", self.clutter);
+    visit("pairs", "second pictures of each scene in which something is otherwise, by names of your own", self.pairs);
     visit("place", "places of things, or of the middles of empty chips", self.place);
     visit("picture", "form of a picture", self.picture);
     visit("splits", "shares of the scenes: a scene is on one side as a whole", self.splits);

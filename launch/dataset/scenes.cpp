@@ -195,4 +195,24 @@ Scene draw_scene(const Recipe& recipe, std::uint64_t number) {
   return scene;
 }
 
+std::vector<Scene> pairs_of(const Recipe& recipe, const Scene& scene) {
+  std::vector<Scene> pairs;
+  for (const PairKeys& keys : recipe.pairs) {
+    Scene& pair = pairs.emplace_back(scene);
+    pair.pair = keys.name;
+    for (const auto& entry : keys.draw.tree.entries) {
+      const std::string path = "pairs." + keys.name + ".draw." + entry.key;
+      pair.sets.push_back(entry.key + "=" + to_json(draw(entry.value, path, {recipe.seed, scene.number}, &pair.drawn)));
+    }
+    for (const Thing& thing : scene.things) {
+      if (thing.labelled ? keys.without_objects() : keys.without_clutter())
+        pair.sets.push_back("objects." + thing.name + ".absent=true");
+    }
+    if (keys.without_objects()) {
+      for (Sample& sample : pair.samples) sample.kind.clear();
+    }
+  }
+  return pairs;
+}
+
 }  // namespace ensonify::dataset

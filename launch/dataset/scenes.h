@@ -29,6 +29,7 @@ struct Thing {
 /// A launch with what is drawn for it.
 struct Scene {
   std::uint64_t number = 0;
+  std::string pair;        // of Recipe::pairs; "": the scene itself
   std::uint64_t seed = 1;  // of the scenario
   std::string split;
   std::vector<Sample> samples;
@@ -40,6 +41,9 @@ struct Scene {
 /// Follows from the recipe and the number alone. Throws UserError where there is no room for its things, with the
 /// constraint that fails most.
 Scene draw_scene(const Recipe& recipe, std::uint64_t number);
+
+/// The same scene once more for each of the recipe's pairs, with what is otherwise there.
+std::vector<Scene> pairs_of(const Recipe& recipe, const Scene& scene);
 
 /// Split of a scene.
 std::string split_of(const Recipe& recipe, std::uint64_t scene);

@@ -228,6 +228,7 @@ struct ObjectKeys {
   std::optional<double> tilt_rad;
   Material material = Material::kDiffuse;
   std::uint8_t sediment = 0;
+  bool absent = false;
   ConfigPlace written;
 
   static void parameters(auto& self, auto&& visit) {
@@ -242,6 +243,8 @@ struct ObjectKeys {
           "diffuse: it scatters as its sediment, with speckle; smooth: rigid, its echo follows from its shape",
           self.material);
     visit("sediment", "", in(0, 255), "class of a diffuse one, of seabed.sediments", self.sediment);
+    visit("absent", "", any(), "not there; all echoes that it has no part in stay as they are, bit for bit",
+          self.absent);
   }
   void complete(ConfigReader& from);
   /// One, or as many as are strewn: "mines_1" and so on. Too many to keep apart are a problem of `from`.

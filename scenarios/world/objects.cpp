@@ -128,6 +128,7 @@ SceneObject ObjectKeys::common() const {
   object.place.tilt_heading_rad = tilt_heading_rad;
   object.smooth = material == Material::kSmooth;
   object.sediment = sediment;
+  object.absent = absent;
   object.written = written;
   return object;
 }

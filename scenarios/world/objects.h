@@ -40,6 +40,7 @@ struct SceneObject {
   ObjectPlace place;
   bool smooth = false;        // its echo follows from its shape alone; else it scatters as its sediment
   std::uint8_t sediment = 0;  // one of Seabed::sediments
+  bool absent = false;        // not there, and all else as if it were, bit for bit
   ConfigPlace written;        // for messages
 };
 

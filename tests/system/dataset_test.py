@@ -7,9 +7,12 @@ import subprocess
 import time
 import unittest
 
+import numpy as np
 import yaml
 
+from ensonify import Record
 from ensonify.dataset.check import leaks, rows_of
+from ensonify.dataset.plan import Plan
 from ensonify.labels.dataset import Dataset
 from support import BIN, SOURCE, SystemTest
 
@@ -114,6 +117,39 @@ class DatasetTest(SystemTest):
             row["ground"] = 0
         self.assertTrue(any(leak.startswith("place: ") for leak in leaks(rows)))
 
+    def test_pairs_are_the_same_scene_with_a_change(self):
+        """Bit by bit the same ping before the nearest thing's echo, or before the first ground's."""
+        out = self.folder / "pairs"
+        pairs = "{ bare: { without: objects }, stony: { draw: { seabed.sediments.2: { lambert_mu_db: -6 } } } }"
+        more = f"empty_share: 0\nsplits: {{ train: 1, val: 0, test: 0 }}\npairs: {pairs}"
+        self.dataset(self.recipe(more), "-n", 3, "-o", out, "--jobs", 2, "--keep-runs")
+        rows = {(row["picture"], row["pair"]): row for row in rows_of(out)}
+        self.assertEqual(set(rows), {(k, pair) for k in range(3) for pair in ("", "bare", "stony")})
+        self.assertEqual(rows[1, "stony"]["name"], "00000001_stony")
+        scenes = {(scene["scene"], scene["pair"]): scene for scene in Plan(out).scenes()}
+        bare = stony = 0
+        for k in range(3):
+            row = rows[k, ""]
+            self.assertEqual(rows[k, "bare"]["objects"], [])
+            ping, without, other = (self.first_ping(out, scenes[k, pair]) for pair in ("", "bare", "stony"))
+            range_m = 0.5 * ping.sound_speed_mps * (ping.first_sample_s + ping.sample_period_s * np.arange(ping.amplitude_upa.shape[1]))
+            if row["objects"]:
+                nearest_m = min(thing["range_m"] for thing in row["objects"])
+                before = range_m < nearest_m - 2  # its size, the bend of paths, and the pulse
+                self.assertTrue(before.any())
+                np.testing.assert_array_equal(ping.amplitude_upa[:, before], without.amplitude_upa[:, before])
+                bare += int((ping.amplitude_upa != without.amplitude_upa).sum())
+            water = range_m < 1.5  # the ground is 2.5 m below the head and more
+            np.testing.assert_array_equal(ping.amplitude_upa[:, water], other.amplitude_upa[:, water])
+            stony += int((ping.amplitude_upa != other.amplitude_upa).sum())
+        self.assertGreater(bare, 0)
+        self.assertGreater(stony, 0)
+
+    @staticmethod
+    def first_ping(out, scene):
+        with Record(str(out / "runs" / scene["id"] / "scene.mcap")) as record:
+            return next(message for _, _, message in record.messages("eye/ping"))
+
     def test_chips_hold_what_they_were_made_for(self):
         out = self.folder / "chips"
         self.dataset(self.recipe("empty_share: 0.2\nsplits: { train: 1, val: 0, test: 0 }", of="sidescan"), "-n", 4, "-o", out, "--jobs", 1)
@@ -125,6 +161,22 @@ class DatasetTest(SystemTest):
             x, y, wide, high = thing["box"]
             self.assertLess(abs(x + wide / 2 - 128), 64 + 12, row["name"])
             self.assertTrue(row["settings"]["top"] == 0 or abs(y + high / 2 - 128) < 64 + 12, row["name"])
+
+    def test_a_full_disk_ends_it_and_it_goes_on_with_room(self):
+        recipe = self.recipe("splits: { train: 1, val: 0, test: 0 }")
+        disk, words = self.folder / "disk", f"{BIN}/ensonify-dataset {recipe} -n 2 --jobs 1 -o"
+        disk.mkdir()
+        script = (f"mount -t tmpfs -o size=600k none {disk} || exit 77\n{words} {disk}/out; echo ended with $?\n"
+                  f"mount -o remount,size=200m {disk}\n{words} {disk}/out && cp -r {disk}/out/set {self.folder}/copy")
+        done = subprocess.run(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script], capture_output=True, text=True, timeout=200,
+                              env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"}, check=False)
+        if done.returncode == 77 or "unshare" in done.stderr:
+            self.skipTest("no mount of one's own: " + done.stderr)
+        self.assertIn("ended with 5", done.stdout, done.stderr)
+        self.assertIn("No space left", done.stderr)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.dataset(recipe, "-n", 2, "-o", self.folder / "other")
+        self.assertEqual(files_of(self.folder / "copy"), files_of(self.folder / "other/set"))
 
     def test_what_is_wrong_is_said(self):
         out = self.folder / "out"

@@ -20,6 +20,7 @@ nlohmann::ordered_json json_of(const source::PlacedObject& placed) {
                                  {"instance", object.instance},
                                  {"shape", object.shape},
                                  {"smooth", object.smooth},
+                                 {"absent", object.absent},
                                  {"position_enu_m", object.position_enu_m},
                                  {"enu_from_object", object.enu_from_object}};
   const progressive::TriangleMesh& mesh = placed.surface.mesh;

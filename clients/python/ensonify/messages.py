@@ -1750,6 +1750,7 @@ class Object(Message):
     smooth: smoothness: its echo follows from its shape; false: it scatters as its sediment, with speckle
     sediment [1]: sediment class of all of it
     buried [1]: part of the volume, 0..1, below the height of the seabed at its middle
+    absent: absence: nothing hits it, and its box counts as if it stood there
     """
 
     TYPE = "object/1"
@@ -1766,6 +1767,7 @@ class Object(Message):
     smooth: bool = False
     sediment: int = 0
     buried: float = 0.0
+    absent: bool = False
 
 
 @dataclass(eq=False)

@@ -1265,6 +1265,8 @@ export interface Object {
   sediment: number;
   /** part of the volume, 0..1, below the height of the seabed at its middle (1) */
   buried: number;
+  /** absence: nothing hits it, and its box counts as if it stood there */
+  absent: boolean;
 }
 
 export interface ObjectMesh {

@@ -58,6 +58,7 @@ void Scene::Impl::show() {
   std::vector<ShownBody> shown_bodies;
   Contributors contributors;
   for (auto& [number, one] : bodies) {
+    if (one.shown.body->absent) continue;
     const auto pieces = one.triangles.show(device, origin_enu_m);
     shown.insert(shown.end(), pieces.begin(), pieces.end());
     shown_bodies.push_back(one.shown);

@@ -18,6 +18,8 @@ struct Body {
   /// Else it scatters as its sediment does, with random phase.
   bool smooth = false;
   std::uint8_t sediment = 0;  // class
+  /// No ray hits it or goes to it; paths reckon with its box, so that those to all else are as with it, bit for bit.
+  bool absent = false;
   // For labels:
   std::uint32_t instance = 0, label_class = 0;
   std::string name, class_name;

@@ -53,7 +53,7 @@ def add_scene(verbs) -> None:
 
 def plot_scene(options) -> int:
     """`ensonify plot scene`."""
-    objects = json.loads(run_program("terrain", "objects", options.seabed))
+    objects = [one for one in json.loads(run_program("terrain", "objects", options.seabed)) if not one["absent"]]
     if not objects and not options.around:
         raise UserError(f"{options.seabed}: has no objects; allowed: a scenario with `objects:`, or --around EAST NORTH SIDE")
     track, swath = read_way(options.record) if options.record else (np.empty((0, 2)), [])

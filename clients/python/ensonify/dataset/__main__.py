@@ -1,7 +1,6 @@
-"""What `ensonify dataset` calls: ready, scene, join, check."""
+"""What `ensonify dataset` calls: ready, make, join, check."""
 import argparse
 import sys
-from pathlib import Path
 
 from ensonify.session import EXIT_BAD_INPUT, RunError
 
@@ -10,11 +9,10 @@ def parser() -> argparse.ArgumentParser:
     of = argparse.ArgumentParser(prog="python -m ensonify.dataset", description="Pictures of scenes, and the set that they become.")
     verbs = of.add_subparsers(dest="verb", required=True)
     verbs.add_parser("ready", help="say whether all that is needed is there")
-    one = verbs.add_parser("scene", help="make the pictures of a run")
-    one.add_argument("folder", help="folder of the set")
-    one.add_argument("scene", type=int, help="number of the scene")
-    one.add_argument("out", help="folder of its run")
-    one.add_argument("--keep", action="store_true", help="leave the record")
+    make = verbs.add_parser("make", help="make the pictures of runs, as they end")
+    make.add_argument("folder", help="folder of the set")
+    make.add_argument("socket", type=int, help="descriptor of a socket: scenes come as lines, and for each goes a line back")
+    make.add_argument("--keep", action="store_true", help="leave the records")
     all_of = verbs.add_parser("join", help="make the set of all pictures")
     all_of.add_argument("folder", help="folder of the set")
     all_of.add_argument("--pictures", type=int, required=True, help="number of pictures")
@@ -35,16 +33,10 @@ def run(args: argparse.Namespace) -> int:
             print(leak)
         print(f"{args.set}: {len(rows)} pictures, {len(found) or 'no'} leaks")
         return 1 if found else 0
-    from ensonify.dataset import join, scene, store
-    from ensonify.dataset.plan import Plan
+    from ensonify.dataset import join, maker
 
-    if args.verb == "scene":
-        plan, out = Plan(args.folder), Path(args.out)
-        of = plan.scene(args.scene)
-        store.save(scene.pictures_of(plan.recipe, of, out), out / "pictures.npz")
-        if not args.keep:
-            for record in out.glob("*.mcap"):
-                record.unlink()
+    if args.verb == "make":
+        maker.serve(args.folder, args.socket, args.keep)
     elif args.verb == "join":
         print(join.join(args.folder, args.pictures, args.only, args.sources))
     return 0

@@ -53,7 +53,7 @@ def found(plan: Plan, plans: list) -> list:
     for scene in plan.scenes():
         there = [file for file in (other.pictures_of(scene) for other in plans) if file.exists()]
         if not there:
-            missing.append(scene["scene"])
+            missing.append(f"{scene['scene']} {scene['pair']}".rstrip())
             continue
         if len({file.read_bytes() for file in there}) > 1:
             raise RunError(f"scene {scene['scene']}: {there[0]} and {there[1]} differ", EXIT_DIFFER)
@@ -94,7 +94,7 @@ def row_of(recipe: dict, scene: dict, sample: dict, picture: Picture) -> dict:
                 "shadow_pixels": int(thing.shadow.sum()), "box": outlines.box(thing.mask), **thing.facts} for thing in picture.things]
     slot = 0 if recipe["chip"] is None else sample["number"] % recipe["samples"]
     shows = any(one["name"].startswith(f"{sample['kind']}_{slot}_") for one in objects) if sample["kind"] else False
-    return {"picture": sample["number"], "name": picture.name, "split": scene["split"], "scene": scene["scene"], "id": scene["id"],
+    return {"picture": sample["number"], "name": picture.name, "pair": scene["pair"], "split": scene["split"], "scene": scene["scene"], "id": scene["id"],
             "seed": scene["seed"], "kind": sample["kind"], "shows": shows, "place": sample["place"], "ground": scene["ground"], "sha256": content.hexdigest(),
             "drawn": scene["drawn"], "settings": picture.facts, "objects": objects}
 

@@ -19,13 +19,5 @@ class Plan:
         with open(self.folder / "scenes.jsonl", encoding="utf-8") as lines:
             return [json.loads(line) for line in lines]
 
-    def scene(self, number: int) -> dict:
-        """One of them, without parsing the rest."""
-        with open(self.folder / "scenes.jsonl", encoding="utf-8") as lines:
-            for line in lines:
-                if line.startswith(f'{{"scene":{number},'):
-                    return json.loads(line)
-        raise RunError(f"{self.folder}: has no scene {number}", EXIT_BAD_INPUT)
-
     def pictures_of(self, scene: dict) -> Path:
         return self.folder / "runs" / scene["id"] / "pictures.npz"

@@ -19,7 +19,7 @@ def pictures_of(recipe: dict, scene: dict, out: Path) -> list:
         make = chips if recipe["chip"] else whole_pings
         made = make(record, topic, recipe, scene, display)
     for picture, sample in zip(made, scene["samples"]):
-        picture.name = f"{sample['number']:08d}"
+        picture.name = f"{sample['number']:08d}" + (f"_{scene['pair']}" if scene["pair"] else "")
         keep_labelled(picture, scene, recipe["least_pixels"])
     return made
 
@@ -34,10 +34,12 @@ def topic_of(record: Record, head: str) -> str:
 
 def whole_pings(record: Record, topic: str, recipe: dict, scene: dict, display) -> list:
     wanted = [recipe["first"] + recipe["every"] * i for i in range(len(scene["samples"]))]
-    pairs = [pair for number, pair in enumerate(labels.labelled(record, topic)) if number in set(wanted)]
+    response = recipe["mask"] == "response"
+    pairs = [pair for number, pair in enumerate(labels.labelled(record, topic, response)) if number in set(wanted)]
     if len(pairs) < len(wanted):
         raise RunError(f"{record.file}: has too few pings for {len(wanted)} pictures; let the launch run longer", EXIT_BAD_INPUT)
-    return [pictures.of_ping(pair, recipe["view"], display, {"topic": topic, **pose_of(pair.ping)}) for pair in pairs]
+    return [pictures.of_ping(pair, recipe["view"], display, {"topic": topic, **pose_of(pair.ping)}, response)
+            for pair in pairs]
 
 
 def chips(record: Record, topic: str, recipe: dict, scene: dict, display) -> list:

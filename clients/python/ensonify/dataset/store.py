@@ -24,11 +24,14 @@ def save(made: list, file: Path) -> None:
             arrays[f"{number}_{key}"] = np.array(masks, bool).reshape(len(masks), *picture.grey.shape)
     arrays["heads"] = np.array(json.dumps(heads))
     part = file.with_name(f".{file.name}.part")
-    with open(part, "wb") as to:
-        np.savez_compressed(to, **arrays)
-        to.flush()
-        os.fsync(to.fileno())
-    os.replace(part, file)
+    try:
+        with open(part, "wb") as to:
+            np.savez_compressed(to, **arrays)
+            to.flush()
+            os.fsync(to.fileno())
+        os.replace(part, file)
+    finally:
+        part.unlink(missing_ok=True)
 
 
 def load(file: Path) -> list:

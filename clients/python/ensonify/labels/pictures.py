@@ -126,10 +126,10 @@ def _settings(pairs: list, scale_upa: float, display: Display, facts: dict) -> d
             "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db}
 
 
-def of_ping(pair: of.Labelled, view: str, display: Display, facts: dict) -> Picture:
-    """A ping of an imaging head: sample by beam, or a fan."""
+def of_ping(pair: of.Labelled, view: str, display: Display, facts: dict, response: bool = False) -> Picture:
+    """A ping of an imaging head: sample by beam, or a fan. response: masks are where things send at least half."""
     arrange = _fan(pair.ping) if view == "cartesian" else _upright(pair.ping)
-    return _picture("", [pair], arrange, display, {**facts, "view": view}, False)
+    return _picture("", [pair], arrange, display, {**facts, "view": view}, response)
 
 
 def of_waterfall(pairs: list, left: int, width: int, display: Display, facts: dict) -> Picture:
