@@ -125,6 +125,10 @@ TEST_CASE("what is wrong with a recipe is said with its place") {
   CHECK_THAT(error_of(kGood + "draw: { a.b: { one_of: [1, 2], weights: [1] } }\n"),
              Contains("is not a list of 2 numbers of 0 or more, one of them over 0"));
   CHECK_THAT(error_of(kGood + "draw: { a.b: { integer: [0, 2.5] } }\n"), Contains("2.5 is not a whole number"));
+  CHECK_THAT(error_of(kGood + "draw: { a.b: { by_split: { train: 1, test: 2 } } }\n"),
+             Contains("draw.a.b.by_split: is not a map of train, val and test"));
+  CHECK_THAT(error_of(kGood + "draw: { a.b: { by_split: { train: 1, val: 1, test: { uniform: 3 } } } }\n"),
+             Contains("by_split.test.uniform: is not a list of two numbers"));
   CHECK_THAT(error_of(kGood + "draw: { seed: 4 }\n"), Contains("draw.seed: is drawn for each scene by itself"));
   CHECK_THAT(error_of(kGood + "pairs: { bare: {} }\n"), Contains("pairs.bare: changes nothing; allowed: `without`"));
   CHECK_THAT(error_of(kGood + "pairs: { bare: { draw: { seed: 4 } } }\n"), Contains("pairs.bare.draw.seed: is drawn"));
@@ -201,6 +205,22 @@ TEST_CASE("scenes are split by their shares, and a split without a scene is name
   CHECK(empty_splits(recipe, 1000).empty());
   CHECK(empty_splits(recipe, 1).size() == 2);
   CHECK(empty_splits(recipe_of(kGood + "splits: { train: 1, val: 0, test: 0 }\n"), 1).empty());
+}
+
+TEST_CASE("a value may follow from the split") {
+  const Recipe recipe = recipe_of(kHead +
+                                  "empty_share: 1\nplace: { east_m: 0, north_m: { by_split: { train: { uniform: "
+                                  "[0, 10] }, val: { uniform: [100, 110] }, test: 200 } } }\n"
+                                  "draw: { seabed.sediments.0: { by_split: { train: mud, val: mud, test: sand } } }\n");
+  std::map<std::string, int> seen;
+  for (std::uint64_t number = 0; number < 60; ++number) {
+    const Scene scene = draw_scene(recipe, number);
+    ++seen[scene.split];
+    const double north_m = scene.samples[0].place[1];
+    CHECK(std::floor(north_m / 100.0) == (scene.split == "train" ? 0.0 : scene.split == "val" ? 1.0 : 2.0));
+    CHECK_THAT(scene.sets[1], Contains(scene.split == "test" ? "sand" : "mud"));
+  }
+  CHECK(seen.size() == 3);
 }
 
 TEST_CASE("things keep apart and stand in the sector") {

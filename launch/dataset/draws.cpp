@@ -16,7 +16,7 @@
 namespace ensonify::dataset {
 namespace {
 
-const std::vector<std::string> kForms = {"uniform", "log_uniform", "normal", "integer", "one_of"};
+const std::vector<std::string> kForms = {"uniform", "log_uniform", "normal", "integer", "one_of", "by_split"};
 
 /// Tries of a bounded normal distribution. With a tenth of it within the bounds, as is asked for, 0.9^500 fail.
 constexpr std::uint64_t kNormalTries = 500;
@@ -75,6 +75,7 @@ class Check {
                              "is not known beside " + form + (beside.empty() ? "" : "; allowed: " + beside)});
     }
     if (form == "one_of") return choice(node, path);
+    if (form == "by_split") return by_split(*node.find(form), path + ".by_split");
     const auto bounds = two_numbers(node.find(form));
     const std::string at = path + "." + form;
     if (!bounds) return problem(*node.find(form), at, "is not a list of two numbers");
@@ -99,6 +100,12 @@ class Check {
     if (share < kLeastWithin)
       problem(node, path + ".within",
               fmt::format("holds {:.2g} of the distribution; allowed: {} or more", std::max(0.0, share), kLeastWithin));
+  }
+
+  void by_split(const ConfigNode& of, const std::string& path) {
+    const bool whole = of.is_map() && of.entries.size() == 3 && of.find("train") && of.find("val") && of.find("test");
+    if (!whole) return problem(of, path, "is not a map of train, val and test");
+    for (const auto& entry : of.entries) tree(entry.value, path + "." + entry.key);
   }
 
   void choice(const ConfigNode& node, const std::string& path) {
@@ -150,6 +157,8 @@ class Draw {
       const std::size_t chosen = choice(node, uniform(stream, 0));
       return Draw(at_, nullptr).tree(node.find("one_of")->items[chosen], fmt::format("{}.one_of[{}]", path, chosen));
     }
+    if (form == "by_split")
+      return Draw(at_, nullptr).tree(*node.find(form)->find(at_.split), path + ".by_split." + at_.split);
     const auto [a, b] = *two_numbers(node.find(form));
     double value = 0.0;
     if (form == "uniform") {

@@ -15,8 +15,9 @@ namespace ensonify::dataset {
 ///
 ///   {uniform: [0.4, 0.6]}   {log_uniform: [1, 100]}   {normal: [8, 2], within: [4, 12]}
 ///   {integer: [0, 3]}       {one_of: [mud, sand], weights: [1, 2]}
+///   {by_split: {train: mud, val: mud, test: sand}}
 ///
-/// What one_of chooses may be a distribution too.
+/// What one_of and by_split choose may be a distribution too.
 struct Drawn {
   ConfigNode tree;  // null: left out
 
@@ -37,6 +38,7 @@ struct Counter {
   std::uint64_t scene = 0;
   std::uint64_t item = 0;     // of the scene
   std::uint64_t attempt = 0;  // of that item; below 2^32
+  std::string split = "train";
 };
 
 /// Drawn values by the path of their key.

@@ -68,7 +68,7 @@ class Placer {
 
  private:
   Counter at(std::uint64_t item, std::uint64_t attempt = 0) const {
-    return {recipe_.seed, scene_.number, item, attempt};
+    return {recipe_.seed, scene_.number, item, attempt, scene_.split};
   }
 
   std::array<double, 2> free_place(std::size_t group) {
@@ -172,7 +172,7 @@ Scene draw_scene(const Recipe& recipe, std::uint64_t number) {
   const auto bits = random::Stream(recipe.seed, "dataset/seed").bits(number);
   scene.seed = bits[0] | std::uint64_t{bits[1] & 0x1fffffU} << 32;  // 53 bits: JSON's numbers hold it
   scene.sets.push_back(fmt::format("seed={}", scene.seed));
-  const Counter at{recipe.seed, number};
+  const Counter at{.seed = recipe.seed, .scene = number, .split = scene.split};
   for (const auto& entry : recipe.args.tree.entries) {
     const ConfigNode value = draw(entry.value, "args." + entry.key, at, &scene.drawn);
     scene.args.push_back(entry.key + "=" + (value.is_scalar() ? value.scalar : to_json(value)));
@@ -202,7 +202,8 @@ std::vector<Scene> pairs_of(const Recipe& recipe, const Scene& scene) {
     pair.pair = keys.name;
     for (const auto& entry : keys.draw.tree.entries) {
       const std::string path = "pairs." + keys.name + ".draw." + entry.key;
-      pair.sets.push_back(entry.key + "=" + to_json(draw(entry.value, path, {recipe.seed, scene.number}, &pair.drawn)));
+      const Counter at{.seed = recipe.seed, .scene = scene.number, .split = scene.split};
+      pair.sets.push_back(entry.key + "=" + to_json(draw(entry.value, path, at, &pair.drawn)));
     }
     for (const Thing& thing : scene.things) {
       if (thing.labelled ? keys.without_objects() : keys.without_clutter())
