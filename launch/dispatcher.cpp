@@ -41,6 +41,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"compare", "say where two records differ"},
     {"convert", "a record as hydrographic software reads it (.all, .kmall, XTF)"},
     {"info", "what records of other formats hold (.all, .kmall, XTF), and what is wrong with them"},
+    {"georeference", "the soundings of a multibeam's file, placed anew from what was measured"},
     {"describe", "a component's parameters, ports and messages"},
     {"physics", "values of the acoustic models, as CSV or JSON"},
     {"plan", "surveys before they are run: lines, speed, sidescan, import"},
@@ -76,7 +77,7 @@ void print_usage(const Programs& programs, std::FILE* to) {
   fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help says more)\n\n");
   for (const auto& [verb, what] : kKnownVerbs) {
     if (std::find(programs.verbs.begin(), programs.verbs.end(), verb) != programs.verbs.end()) {
-      fmt::print(to, "  {:<10} {}\n", verb, what);
+      fmt::print(to, "  {:<12} {}\n", verb, what);
     }
   }
   if (!programs.processes.empty()) {

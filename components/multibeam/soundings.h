@@ -14,26 +14,6 @@
 
 namespace ensonify {
 
-/// Instrument's data of one echo: its estimated poses at transmission and at reception, the sines that it
-/// steered its lines to (from the planes across the head's x axis at transmission, across y at reception), the speed of
-/// sound that it steered with, and the two-way time.
-struct MeasuredEcho {
-  frames::HeadPose at_transmit;
-  frames::HeadPose at_receive;
-  double sin_transmit = 0.0;
-  double sin_receive = 0.0;
-  double face_speed_mps = 1500.0;
-  double two_way_s = 0.0;
-};
-
-/// Origin of the echo in the water that the instrument assumes: along the direction in which both cones intersect
-/// (georeference::intersect_cones), bent by the applied profile (georeference::place_sounding).
-///
-/// The head moves between transmission and reception. The ray is traced from half way between, and turned and shortened
-/// by what a straight line to its end differs from there to the two places: exact in isovelocity water, else right to
-/// the product of the shift over the range and the bending.
-frames::Vec3 sounding_enu_m(const MeasuredEcho& measured, const refraction::SoundSpeedProfile& applied);
-
 /// Soundings of a ping.
 struct Placed {
   std::vector<Echo> echoes;              // the detections behind the entries of the soundings

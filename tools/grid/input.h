@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "components/formats/tide.h"
 #include "kernels/base/frames/local_projection.h"
-#include "tools/grid/tide.h"
 
 namespace ensonify::grid_tool {
 
@@ -27,9 +27,9 @@ struct FileFacts {
 };
 
 struct ReadOptions {
-  std::vector<std::string> topics;  // of soundings; none: all
-  bool turns = false;               // also those of ways between lines, where the record states the mission
-  std::optional<Tide> tide;         // for files whose depths count from the water line
+  std::vector<std::string> topics;    // of soundings; none: all
+  bool turns = false;                 // also those of ways between lines, where the record states the mission
+  std::optional<formats::Tide> tide;  // for files whose depths count from the water line
 };
 
 using TakeSounding = std::function<void(const Sounding&)>;

@@ -60,7 +60,7 @@ class KongsbergFile : public SoundingFile {
   }
 
   std::string file_;
-  std::optional<Tide> tide_;
+  std::optional<formats::Tide> tide_;
   FileFacts facts_;
   std::optional<frames::LocalProjection> projection_;
 };

@@ -71,7 +71,7 @@ TEST_CASE("a tide takes its level off depths, and the datum says so") {
   const formats::sample::TemporaryFile file(all_bytes());
   const std::string readings = "utc,m\n2026-03-10T11:00:00Z,1.0\n2026-03-10T13:00:00Z,2.0\n";
   const formats::sample::TemporaryFile gauge(std::as_bytes(std::span(readings)));
-  const Tide tide(gauge.path().string());
+  const formats::Tide tide(gauge.path().string());
   const auto opened = open_file(file.path().string(), {.tide = tide});
   CHECK(opened->facts().datum == "chart datum, by the tide of " + gauge.path().filename().string());
   CHECK_THAT(soundings_of(*opened).at(0).depth_m, WithinAbs(21.5 - 1.5, 1e-4));  // a quarter of a second after noon

@@ -35,7 +35,7 @@ Writer writer_of(const std::string& file) {
 }
 
 std::vector<std::unique_ptr<SoundingFile>> opened(Options options) {
-  if (!options.tide.empty()) options.reading.tide = Tide(options.tide);
+  if (!options.tide.empty()) options.reading.tide = formats::Tide(options.tide);
   std::vector<std::unique_ptr<SoundingFile>> files;
   for (const std::string& file : options.files) files.push_back(open_file(file, options.reading));
   if (!options.points.empty()) files.push_back(open_points(options.points));

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-namespace ensonify::grid_tool {
+namespace ensonify::formats {
 
 /// Water level above chart datum, by readings of a gauge.
 class Tide {
  public:
-  /// Lines "2025-06-01T12:00:00Z,1.35", rising in time; # begins a remark, names may stand before them. Throws
-  /// UserError with the line of a mistake.
+  /// Lines "2025-06-01T12:00:00Z,1.35", or of CARIS's .tid files "2025/06/01 12:00:00 1.35", UTC and rising; # begins a
+  /// remark, names or dashes may stand before them. Throws UserError with the line of a mistake.
   explicit Tide(std::string file);
 
   const std::string& file() const { return file_; }
@@ -23,4 +23,4 @@ class Tide {
   std::vector<std::pair<std::int64_t, double>> readings_;  // ns since 1970, m
 };
 
-}  // namespace ensonify::grid_tool
+}  // namespace ensonify::formats

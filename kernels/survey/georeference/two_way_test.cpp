@@ -1,13 +1,15 @@
+#include "kernels/survey/georeference/two_way.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "components/multibeam/soundings.h"
 #include "kernels/water/refraction/eigenray.h"
 
 using namespace ensonify;
 using frames::Attitude;
 using frames::HeadPose;
 using frames::Vec3;
+using georeference::sounding_enu_m;
 using refraction::SoundSpeedProfile;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/grid/tide.h"
+#include "components/formats/tide.h"
 
 #include <catch2/catch.hpp>
 #include <span>
@@ -6,14 +6,14 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/testing/sample.h"
 
-namespace ensonify::grid_tool {
+namespace ensonify::formats {
 namespace {
 
 constexpr std::int64_t kNoon = 1'773'144'000'000'000'000;  // 10 March 2026, 12:00:00 UTC
 constexpr std::int64_t kMinute = 60'000'000'000;
 
 Tide tide_of(const std::string& text) {
-  const formats::sample::TemporaryFile file(std::as_bytes(std::span(text)));
+  const sample::TemporaryFile file(std::as_bytes(std::span(text)));
   return Tide(file.path().string());
 }
 
@@ -24,6 +24,11 @@ TEST_CASE("a tide is straight between its readings") {
   CHECK(tide.level_m(kNoon) == 1.5);
   CHECK(tide.level_m(kNoon + 5 * kMinute) == 0.5);
   CHECK(tide.level_m(kNoon + 10 * kMinute) == -0.5);
+}
+
+TEST_CASE("a tide file of CARIS is read") {
+  const Tide tide = tide_of("--------\r\n2026/03/10 12:00:00 1.5\r\n2026/03/10 12:10:00 -0.5\r\n");
+  CHECK(tide.level_m(kNoon + 5 * kMinute) == 0.5);
 }
 
 TEST_CASE("a byte order mark is no reading") {
@@ -51,4 +56,4 @@ TEST_CASE("a reading that is none is named with its line") {
   CHECK_THROWS_WITH(Tide("none.csv"), Catch::Contains("--tide none.csv: cannot be read"));
 }
 
-}  // namespace ensonify::grid_tool
+}  // namespace ensonify::formats

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/base/frames/pose.h"
+
+namespace ensonify::georeference_tool {
+
+/// An array as it is installed: place and turn, and from there, in its own frame, its phase centres: of a transmitter
+/// those of its port, centre and starboard array, of a receiver one.
+struct Array {
+  frames::Mounting installed;
+  std::vector<frames::Vec3> phase_centre_m;
+
+  /// The mounting of a phase centre; the last one beyond them.
+  frames::Mounting mounting(std::size_t phase_centre) const;
+};
+
+/// What a file says of its vessel. Places are forward, starboard and down from the reference point.
+struct Vessel {
+  std::vector<Array> transmitters, receivers;
+  int motion_sensor = 0;  // number of the active one, from 0
+  frames::Quaternion body_from_motion_sensor = frames::Quaternion::Identity();
+  double water_line_m = 0.0;  // of the vessel at rest, down
+};
+
+/// By the installation text of a .kmall file. Throws UserError with `file` and the group that is missing or wrong.
+Vessel vessel_of_kmall(const std::string& file, std::string_view text);
+
+/// Turned by degrees of roll, pitch and heading.
+frames::Quaternion turn_of(double roll_deg, double pitch_deg, double heading_deg);
+
+}  // namespace ensonify::georeference_tool
