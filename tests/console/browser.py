@@ -35,7 +35,7 @@ class BrowserTest(ConsoleTest):
         page = self.browser.new_page(viewport={"width": width, "height": height}, **more)
         self.addCleanup(page.close)
         self.errors, self.asked = [], set()
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("pageerror", lambda error: self.errors.append(error.stack or str(error)))
         page.on("console", lambda message: self.errors.append(message.text) if message.type == "error" else None)
         page.on("request", lambda request: self.asked.add(request.url.split("/")[2]) if request.url.startswith("http") else None)
         page.goto(url)

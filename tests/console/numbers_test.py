@@ -2,10 +2,11 @@
 import math
 import unittest
 
+import ensonify
 import numpy as np
 
 from browser import BrowserTest
-from console import ESTIMATED_ROLL_DEG, TRUE_ROLL_DEG, ConsoleTest, voyage, write_record
+from console import ESTIMATED_ROLL_DEG, TRUE_ROLL_DEG, ConsoleTest, fan, voyage, write_record
 from viewer import Viewer
 
 TRUTH, ESTIMATE = 0xFF54B4FF, 0xFFFFE36F  # colours of the page, as pixels
@@ -70,6 +71,17 @@ class Numbers(ConsoleTest):
 
 
 class Strips(BrowserTest):
+    def test_numbers_that_differ_by_their_last_bit_have_a_strip(self):
+        bits = (ensonify.Altitude(stamp_ns=i * 100_000_000, valid=True, range_m=90.0 + i % 2 * 1.5e-14) for i in range(100))
+        at = self.console(write_record(self.folder / "bits.mcap", (("echo/altitude", one) for one in bits), fan()), "--rate", "10")
+        page = self.open(at.view)
+        page.get_by_label("numbers", exact=True).check()
+        page.wait_for_selector("text=ended")
+        self.wait_for(lambda: self.strip(page, "echo/altitude.range_m")[2][1] > 9.5)
+        low, high = self.strip(page, "echo/altitude.range_m")[3]
+        self.assertTrue(1e-3 < high - low < 0.1, (low, high))
+        self.assertEqual(self.errors, [])
+
     def strip(self, page, name):
         """The strip's pixels, the box of its plot in them, and the times and values that it covers."""
         place = page.locator(f'[data-strip="{name}"]')

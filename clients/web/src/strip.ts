@@ -29,6 +29,22 @@ function withoutJumps({ unit, time_s, value }: Series): [number[], (number | nul
   return [times, values];
 }
 
+const LEAST_S = 1; // of time
+const LEAST = 1e-6; // of values
+const LEAST_PART = 1e-4; // of a value
+
+/** As wide at least: uPlot counts ticks without end where they are not numbers apart. */
+function wide(low: number, high: number, least: number): [number, number] {
+  const lack = (least - (high - low)) / 2;
+  return lack > 0 ? [low - lack, high + lack] : [low, high];
+}
+
+/** The scale of values, with a tenth of room. */
+function range(_: uPlot, low: number | null, high: number | null): uPlot.Range.MinMax {
+  if (low == null || high == null) return [null, null];
+  return uPlot.rangeNum(...wide(low, high, LEAST + LEAST_PART * Math.max(Math.abs(low), Math.abs(high))), 0.1, true);
+}
+
 export class Strip {
   private plot: uPlot;
 
@@ -38,7 +54,7 @@ export class Strip {
     this.plot = new uPlot(
       {
         width: Math.max(80, place.clientWidth), height: Math.max(60, place.clientHeight),
-        legend: { show: false }, scales: { x: { time: false } }, padding: [6, 8, 0, 0],
+        legend: { show: false }, scales: { x: { time: false, range: (_, first, last) => (first == null ? [null, null] : wide(first, last, LEAST_S)) }, y: { range } }, padding: [6, 8, 0, 0],
         cursor: { sync: { key: "numbers" }, drag: { x: false, y: false }, points: { show: false } },
         axes: [{ ...axis, size: 22, values: (_, ticks) => ticks.map((t) => `${t} s`) }, { ...axis, size: 56 }],
         series: [{}, ...lines.map(({ colour }) => ({ stroke: colour, width: 1.5, points: { show: false } }))],
