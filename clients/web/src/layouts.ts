@@ -7,6 +7,7 @@ export const CHART = "chart";
 export const NUMBERS = "numbers";
 export const HELM = "helm";
 export const LOGS = "logs";
+export const HEALTH = "health";
 
 /** Heads of these components; of a record, or another component's, those that are named after it. */
 function heads(...components: string[]): string[] {
