@@ -112,7 +112,7 @@ void Desk::ask_source() {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
              (soundings && wants_finds(*flow, process_of(topic))) ||
              (places_world(entry.second) && !(entry.second == msg::Chart::kType && has_relief_) &&
-              flow->watches(kReliefTopic)) ||
+              (flow->watches(kReliefTopic) || flow->watches(kPlanTopic))) ||
              (entry.second == msg::BottomTrack::kType && flow->wishes_ground(view_topic_beside(topic))) ||
              (plans(entry.second) && flow->watches(kPlanTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
@@ -215,16 +215,22 @@ void Desk::read_logs(WallTime now) {
 
 /// A chart is published once, before anybody watches: then it is in the record.
 void Desk::find_chart(WallTime now) {
-  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic); };
+  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic) || flow->watches(kPlanTopic); };
   if (has_relief_ || chart_tries_ >= kChartTries || now - chart_sought_ < kChartEvery ||
       std::none_of(viewers_.begin(), viewers_.end(), watches))
     return;
   chart_sought_ = now;
   ++chart_tries_;
   if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) {
-    has_relief_ = true;
-    offer_relief(relief_of(*chart), now);
+    take_chart(*chart, now);
   }
+}
+
+void Desk::take_chart(const msg::Chart& chart, WallTime now) {
+  if (std::exchange(has_relief_, true)) return;
+  offer_relief(relief_of(chart), now);
+  plan_.take(chart);
+  plan_is_new_ = true;
 }
 
 void Desk::offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now) {
@@ -286,8 +292,7 @@ void Desk::take(msg::Packet packet, WallTime now) {
     values_.take(type->second, packet);
     alarms_.take(type->second, packet);
     if (type->second == msg::Chart::kType) {
-      if (!has_relief_) offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
-      has_relief_ = true;
+      take_chart(msg::decode<msg::Chart>(packet.body, packet.body.size()), now);
     } else if (type->second == msg::Position::kType && !has_map_) {
       if (const auto map = map_of(msg::decode<msg::Position>(packet.body, packet.body.size()))) offer_relief(*map, now);
     }

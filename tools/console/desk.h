@@ -59,6 +59,7 @@ class Desk {
   void watch_disk(WallTime now);
   void read_logs(WallTime now);
   void find_chart(WallTime now);
+  void take_chart(const msg::Chart& chart, WallTime now);
   void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
   void offer_alarms(WallTime now);
   void make_plan(WallTime now);
