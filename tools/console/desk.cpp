@@ -81,7 +81,9 @@ std::string view_topic_of(const std::string& ping_topic) {
   return ping_topic.substr(0, slash + 1) + std::string(kView) + ping_topic.substr(slash + 1 + kPing.size());
 }
 
-Desk::Desk(std::unique_ptr<Source> source) : source_(std::move(source)) { refresh(); }
+Desk::Desk(std::unique_ptr<Source> source, const AlarmLimits& alarms) : source_(std::move(source)), alarms_(alarms) {
+  refresh();
+}
 
 void Desk::add(Flow& flow) { viewers_.push_back(&flow); }
 

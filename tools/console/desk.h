@@ -24,7 +24,7 @@ namespace ensonify::console {
 /// (HEAD/view...): the head's own in a live run, else made when it is sent.
 class Desk {
  public:
-  explicit Desk(std::unique_ptr<Source> source);
+  explicit Desk(std::unique_ptr<Source> source, const AlarmLimits& alarms = {});
 
   void add(Flow& flow);
   void remove(Flow& flow);

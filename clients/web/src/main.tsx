@@ -5,11 +5,13 @@ import { ChartPane } from "./chart";
 import { areSizesChanged, Grid, resetSizes } from "./grid";
 import { HelmPane } from "./helm";
 import { Key, Keys, listKeys } from "./keys";
-import { CHART, choose, HEALTH, HELM, layout, LAYOUT_NAMES, LOGS, names, nextLayout, NUMBERS, panes, toggle } from "./layouts";
+import { CHART, choose, HEALTH, HELM, layout, LAYOUT_NAMES, LOGS, MESSAGE, names, nextLayout, NUMBERS, panes, toggle } from "./layouts";
 import { COLOURS, colours, light, LIGHTS, nextLight } from "./light";
 import { LogsPane } from "./logs";
 import { NumbersPane } from "./numbers";
-import { Head, HealthPane } from "./panes";
+import { MessagePane } from "./message";
+import { Head } from "./panes";
+import { HealthPane } from "./processes";
 import { answer, begin, connected, send, simTime_s, state, trouble } from "./store";
 
 const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
@@ -76,6 +78,7 @@ function pane(name: string) {
   if (name === CHART) return <ChartPane />;
   if (name === NUMBERS) return <NumbersPane />;
   if (name === LOGS) return <LogsPane />;
+  if (name === MESSAGE) return <MessagePane />;
   if (name === HELM) return <HelmPane />;
   if (name === HEALTH) return <HealthPane />;
   return <Head topic={name} />;
