@@ -57,6 +57,17 @@ class Alarms(ConsoleTest):
         viewer.close()
 
 
+    def test_limits_are_options_of_the_command(self):
+        at = self.console(write_record(self.folder / "trouble.mcap", trouble()), "--free", "--alarm-off-line", 13, "--alarm-no-bottom", 10)
+        viewer = Viewer(at.view)
+        viewer.watch("alarms")
+        alarms = viewer.until(lambda f: f.type == "console_alarms/1" and any(a["kind"] == "late_pings" for a in f.content["alarms"])).content["alarms"]
+        since_ns = {alarm["kind"]: alarm["since_ns"] for alarm in alarms}
+        self.assertEqual(since_ns["no_bottom"], 5_800_000_000)  # the tenth ping
+        self.assertNotIn("off_line", since_ns)  # 12 m
+        viewer.close()
+
+
 class AlarmsOnThePage(BrowserTest):
     def test_they_stay_until_acknowledged_by_keyboard_and_come_back_when_raised_again(self):
         at = self.console(write_record(self.folder / "trouble.mcap", trouble()), "--rate", "8", "--loop")

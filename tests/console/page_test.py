@@ -88,6 +88,27 @@ class Page(BrowserTest):
     def test_of_a_head_that_looks_forward_ahead_is_up(self):
         self.check_target("forward")
 
+    def test_in_a_rectangle_beams_lie_side_by_side_and_ranges_begin_at_the_head(self):
+        beams, target, step_m, samples = 61, (12, 35.04), 0.12, 500
+        for axis in ("down", "forward"):
+            declares = {"bow": ensonify.HeadDeclaration(kind="multibeam", beam_axis=axis)}
+            at = self.console(write_record(self.folder / f"{axis}.mcap", fan(target=target, samples=samples, step_m=step_m), declares=declares), "--loop")
+            page = self.open(at.view)
+            self.wait_for_flow(page)
+            page.get_by_label("rectangular", exact=True).check()
+            page.wait_for_selector("text=not to scale", timeout=15_000)
+            height, width = self.picture(page, "bow/view").shape
+            part = target[1] / ((samples - 0.5) * step_m)
+            want_x, want_y = (target[0] + 0.5) / beams * width, (1 - part if axis == "forward" else part) * height
+            self.wait_for(lambda: abs(self.brightest(page, "bow/view")[0] - want_x) < 1.5)
+            x, y, count, bright = self.brightest(page, "bow/view")
+            self.assertLess(math.hypot(x - want_x, y - want_y), 2.0, ((x, y), (want_x, want_y)))
+            self.assertAlmostEqual(count, width / beams, delta=1.5 * width / beams)  # one or two rows of one beam's width
+            line = self.cursor(page, "bow/view", *bright)
+            self.assertIn("beam 12; across -20.", line)
+            self.assertIn("120.0 dB", line)
+            self.assertEqual(self.errors, [])
+
     def test_a_waterfall_has_the_newest_ping_on_top_and_port_to_the_left(self):
         at = self.console(write_record(self.folder / "sides.mcap", sides(pings=200)), "--loop", "--rate", "5")
         page = self.open(at.control)

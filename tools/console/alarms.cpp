@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::string_view kLatePings[] = {"pings_skipped", "triggers_missed", "triggers_late", "late_ping"};
 
+// Where a cause is over, as a share of its limit.
+constexpr double kOnLineAgain = 0.8;
+constexpr double kInTimeAgain = 0.5;
+constexpr double kGigabyte = 1e9;
+
 std::string process_of(const std::string& topic) { return topic.substr(0, topic.find('/')); }
 
 template <msg::Message M>
@@ -66,7 +71,7 @@ void Alarms::bottom(const std::string& topic, bool found) {
   if (found) {
     without = 0;
     lower("no_bottom", topic);
-  } else if (++without >= kPingsWithoutBottom) {
+  } else if (++without >= limits_.pings_without_bottom) {
     raise("no_bottom", topic, fmt::format("no bottom in the last {} pings", without));
   }
 }
@@ -90,15 +95,15 @@ void Alarms::health(const msg::Packet& packet) {
 void Alarms::clock(const msg::Packet& packet) {
   const auto clock = decoded<msg::ClockHealth>(packet);
   const std::string process = process_of(packet.topic);
-  if (clock.rate > 0.0 && clock.lateness_s > kLate_s)
+  if (clock.rate > 0.0 && clock.lateness_s > limits_.late_s)
     raise("late", process, fmt::format("the run stands {:.1f} s behind its pace", clock.lateness_s));
-  else if (clock.lateness_s < kInTimeAgain_s) lower("late", process);
+  else if (clock.lateness_s < kInTimeAgain * limits_.late_s) lower("late", process);
   if (clock.slips > slips_.value_or(clock.slips))
     happened("slips", process, fmt::format("{} slips, {:.1f} s of lost time given up", clock.slips, clock.slip_s));
   slips_ = clock.slips;
   for (const msg::Pace& pace : clock.participants) {
     double& worst_s = worst_lateness_s_[pace.name];
-    if (clock.rate > 0.0 && pace.worst_lateness_s > std::max(worst_s, kLatePing_s))
+    if (clock.rate > 0.0 && pace.worst_lateness_s > std::max(worst_s, limits_.waited_s))
       happened("late", pace.name,
                fmt::format("the run waited for it, by up to {:.2f} s; {} late events so far", pace.worst_lateness_s,
                            pace.late_events));
@@ -109,14 +114,15 @@ void Alarms::clock(const msg::Packet& packet) {
 void Alarms::mission(const msg::Packet& packet) {
   const auto mission = decoded<msg::MissionState>(packet);
   const double off_m = std::abs(mission.cross_track_m);
-  if (mission.state == "on_line" && off_m > kOffLine_m)
+  if (mission.state == "on_line" && off_m > limits_.off_line_m)
     raise("off_line", packet.topic,
           fmt::format("{:.1f} m to {} of the runline", off_m, mission.cross_track_m > 0.0 ? "starboard" : "port"));
-  else if (mission.state != "on_line" || off_m < kOnLineAgain_m) lower("off_line", packet.topic);
+  else if (mission.state != "on_line" || off_m < kOnLineAgain * limits_.off_line_m) lower("off_line", packet.topic);
 }
 
 void Alarms::disk(const std::string& folder, std::uintmax_t free_bytes) {
-  if (free_bytes < kFullDisk_bytes) raise("disk", folder, fmt::format("{} MB left", free_bytes / 1'000'000));
+  if (static_cast<double>(free_bytes) < kGigabyte * limits_.disk_gb)
+    raise("disk", folder, fmt::format("{} MB left", free_bytes / 1'000'000));
   else lower("disk", folder);
 }
 
@@ -163,7 +169,7 @@ void Alarms::happened(const std::string& kind, const std::string& source, const 
 
 void Alarms::clear() {
   const std::int64_t next = generation_ + 1;
-  *this = Alarms();
+  *this = Alarms(limits_);
   generation_ = next;
   changed_ = true;
 }

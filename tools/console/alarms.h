@@ -12,18 +12,22 @@
 
 namespace ensonify::console {
 
+/// Beyond which an alarm is raised.
+struct AlarmLimits {
+  int pings_without_bottom = 5;  // in a row, for an alarm
+  double off_line_m = 10.0;      // from the runline, while on it; over at 0.8 of that
+  double late_s = 1.0;           // behind paced time; over at half of that
+  double waited_s = 0.25;        // for one process, by the lateness that is charged to it
+  double disk_gb = 1.0;          // left where results are written, 10^9 bytes
+};
+
 /// What an operator has to know of, made of messages that a run publishes anyway. A page keeps an alarm until somebody
 /// has acknowledged it there; here is only what was raised, how often, and whether its cause lasts.
 class Alarms {
  public:
   static constexpr std::size_t kMostAlarms = 64;
-  static constexpr int kPingsWithoutBottom = 5;  // in a row
-  static constexpr double kOffLine_m = 10.0;     // from the runline, while on it
-  static constexpr double kOnLineAgain_m = 8.0;  // where that is over
-  static constexpr double kLate_s = 1.0;         // behind paced time
-  static constexpr double kInTimeAgain_s = 0.5;
-  static constexpr double kLatePing_s = 0.25;  // charged to one process
-  static constexpr std::uintmax_t kFullDisk_bytes = 1'000'000'000;
+
+  explicit Alarms(const AlarmLimits& limits = {}) : limits_(limits) {}
 
   /// Types whose messages it is made of.
   static bool needs(const std::string& type);
@@ -53,6 +57,7 @@ class Alarms {
   void clock(const msg::Packet& packet);
   void mission(const msg::Packet& packet);
 
+  AlarmLimits limits_;
   std::int64_t generation_ = 1;
   std::int64_t now_ns_ = 0;
   bool changed_ = false;

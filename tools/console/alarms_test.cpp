@@ -14,8 +14,8 @@ namespace {
 
 /// Messages to alarms, numbered as they come.
 struct Watch {
-  Alarms alarms;
-  std::map<std::string, std::uint64_t> seq;
+  Alarms alarms = Alarms();
+  std::map<std::string, std::uint64_t> seq = {};
 
   template <msg::Message M>
   void give(const std::string& topic, const M& message) {
@@ -43,6 +43,28 @@ struct Watch {
 };
 
 }  // namespace
+
+TEST_CASE("limits of alarms are those that were asked for, also after it begins anew") {
+  AlarmLimits limits;
+  limits.pings_without_bottom = 2;
+  limits.off_line_m = 5.0;
+  Watch watch{Alarms(limits), {}};
+  for (int round = 0; round < 2; ++round) {
+    watch.on_line(5.0);
+    watch.ping(0);
+    CHECK_FALSE(watch.of("off_line").active);
+    CHECK_FALSE(watch.of("no_bottom").active);
+    watch.on_line(-5.1);
+    watch.ping(0);
+    CHECK(watch.of("off_line").active);
+    CHECK(watch.of("no_bottom").active);
+    watch.on_line(4.1);  // not well on it
+    CHECK(watch.of("off_line").active);
+    watch.on_line(3.9);
+    CHECK_FALSE(watch.of("off_line").active);
+    watch.alarms.clear();
+  }
+}
 
 TEST_CASE("five pings in a row without a bottom raise an alarm, one with a bottom ends it") {
   Watch watch;

@@ -82,7 +82,7 @@ std::shared_ptr<Desk> Console::desk(const std::string& id) {
   if (id.starts_with(kRun)) source = live_source(id.substr(kRun.size()));
   else source = record_source(id.substr(kRecord.size()), options_.record);
   if (options_.blind) source = blind(std::move(source));
-  return desks_[id] = std::make_shared<Desk>(std::move(source));
+  return desks_[id] = std::make_shared<Desk>(std::move(source), options_.alarms);
 }
 
 void Console::tick(WallTime now) {

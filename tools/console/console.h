@@ -20,6 +20,7 @@ struct ConsoleOptions {
   std::string folder;                 // where records may be opened; "": none
   std::vector<std::string> launches;  // to name, not to start
   RecordOptions record;
+  AlarmLimits alarms;
   bool blind = false;  // the truth is withheld: blind.h, and nothing else can be opened
 };
 

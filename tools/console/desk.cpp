@@ -81,7 +81,9 @@ std::string view_topic_of(const std::string& ping_topic) {
   return ping_topic.substr(0, slash + 1) + std::string(kView) + ping_topic.substr(slash + 1 + kPing.size());
 }
 
-Desk::Desk(std::unique_ptr<Source> source) : source_(std::move(source)) { refresh(); }
+Desk::Desk(std::unique_ptr<Source> source, const AlarmLimits& alarms) : source_(std::move(source)), alarms_(alarms) {
+  refresh();
+}
 
 void Desk::add(Flow& flow) { viewers_.push_back(&flow); }
 
@@ -112,7 +114,7 @@ void Desk::ask_source() {
       return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
              (soundings && wants_finds(*flow, process_of(topic))) ||
              (places_world(entry.second) && !(entry.second == msg::Chart::kType && has_relief_) &&
-              flow->watches(kReliefTopic)) ||
+              (flow->watches(kReliefTopic) || flow->watches(kPlanTopic))) ||
              (entry.second == msg::BottomTrack::kType && flow->wishes_ground(view_topic_beside(topic))) ||
              (plans(entry.second) && flow->watches(kPlanTopic)) ||
              (Alarms::needs(entry.second) && flow->watches(kAlarmsTopic));
@@ -215,16 +217,22 @@ void Desk::read_logs(WallTime now) {
 
 /// A chart is published once, before anybody watches: then it is in the record.
 void Desk::find_chart(WallTime now) {
-  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic); };
+  const auto watches = [](const Flow* flow) { return flow->watches(kReliefTopic) || flow->watches(kPlanTopic); };
   if (has_relief_ || chart_tries_ >= kChartTries || now - chart_sought_ < kChartEvery ||
       std::none_of(viewers_.begin(), viewers_.end(), watches))
     return;
   chart_sought_ = now;
   ++chart_tries_;
   if (const auto chart = chart_in(state_.kind == "record" ? state_.name : source_->folder())) {
-    has_relief_ = true;
-    offer_relief(relief_of(*chart), now);
+    take_chart(*chart, now);
   }
+}
+
+void Desk::take_chart(const msg::Chart& chart, WallTime now) {
+  if (std::exchange(has_relief_, true)) return;
+  offer_relief(relief_of(chart), now);
+  plan_.take(chart);
+  plan_is_new_ = true;
 }
 
 void Desk::offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now) {
@@ -286,8 +294,7 @@ void Desk::take(msg::Packet packet, WallTime now) {
     values_.take(type->second, packet);
     alarms_.take(type->second, packet);
     if (type->second == msg::Chart::kType) {
-      if (!has_relief_) offer_relief(relief_of(msg::decode<msg::Chart>(packet.body, packet.body.size())), now);
-      has_relief_ = true;
+      take_chart(msg::decode<msg::Chart>(packet.body, packet.body.size()), now);
     } else if (type->second == msg::Position::kType && !has_map_) {
       if (const auto map = map_of(msg::decode<msg::Position>(packet.body, packet.body.size()))) offer_relief(*map, now);
     }

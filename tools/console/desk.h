@@ -24,7 +24,7 @@ namespace ensonify::console {
 /// (HEAD/view...): the head's own in a live run, else made when it is sent.
 class Desk {
  public:
-  explicit Desk(std::unique_ptr<Source> source);
+  explicit Desk(std::unique_ptr<Source> source, const AlarmLimits& alarms = {});
 
   void add(Flow& flow);
   void remove(Flow& flow);
@@ -59,6 +59,7 @@ class Desk {
   void watch_disk(WallTime now);
   void read_logs(WallTime now);
   void find_chart(WallTime now);
+  void take_chart(const msg::Chart& chart, WallTime now);
   void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
   void offer_alarms(WallTime now);
   void make_plan(WallTime now);

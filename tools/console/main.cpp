@@ -31,9 +31,21 @@ struct Options {
   bool loop = false;
   bool stay = false;
   bool blind = false;
+  AlarmLimits alarms;
   int port = 0;
   std::string folder;
 };
+
+void declare_limits(CLI::App& app, AlarmLimits& limits) {
+  const auto limit = [&](const char* name, auto& value, const char* about, double most) {
+    app.add_option(name, value, about)->capture_default_str()->check(CLI::Range(0.0, most))->group("Limits of alarms");
+  };
+  limit("--alarm-no-bottom", limits.pings_without_bottom, "pings in a row without a bottom", 1e6);
+  limit("--alarm-off-line", limits.off_line_m, "distance from the runline, m", 1e6);
+  limit("--alarm-late", limits.late_s, "time that the run stands behind its pace, s", 1e6);
+  limit("--alarm-waited", limits.waited_s, "time that the run waited for one process, s", 1e6);
+  limit("--alarm-disk", limits.disk_gb, "space left where results are written, GB", 1e6);
+}
 
 void declare(CLI::App& app, Options& options) {
   app.add_option(
@@ -61,6 +73,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--blind", options.blind,
                "withhold the truth, for exercises: only what instruments say crosses the socket; no logs, and nothing "
                "else can be opened");
+  declare_limits(app, options.alarms);
   app.footer(
       "Prints two URLs: one to view, one to control as well. Serves until Ctrl-C (without a terminal until the run "
       "that it\n"
@@ -93,6 +106,7 @@ int serve(const Options& options, std::optional<int>& ended) {
   ConsoleOptions console_options;
   console_options.folder = options.folder;
   console_options.blind = options.blind;
+  console_options.alarms = options.alarms;
   if (!options.blind) console_options.launches = launch_files();
   const bool starts = !options.target.empty() && !is_record(options.target);
   const double pace = options.own.rate > 0.0 ? options.own.rate : 1.0;

@@ -14,15 +14,37 @@ constexpr std::size_t kNumbers = 4;  // of a line
 
 void Plan::read(const std::string& scenario) {
   lines_enu_m_.clear();
+  to_lay_ = scenario;
+  lay();
+}
+
+void Plan::take(const msg::Chart& chart) {
+  chart_ = chart;
+  if (!to_lay_.empty()) lay();
+}
+
+/// As the autopilot does, by the same code.
+void Plan::lay() {
+  std::vector<runlines::Runline> lines;
   try {
-    ConfigReader from(parse_config(scenario, "scenario.yaml"));
-    for (const runlines::Runline& line : read_world(from, "scenario.yaml").mission.runlines)
-      lines_enu_m_.insert(lines_enu_m_.end(),
-                          {line.start_enu_m.x(), line.start_enu_m.y(), line.end_enu_m.x(), line.end_enu_m.y()});
+    ConfigReader from(parse_config(to_lay_, "scenario.yaml"));
+    const World world = read_world(from, "scenario.yaml");
+    if (!world.mission.auto_plan) {
+      lines = world.mission.runlines;
+    } else if (!chart_) {
+      return;
+    } else if (world.vehicles.size() == 1) {
+      lines = planned_lines(MissionPlan::of(world, world.vehicles.front()), *chart_);
+    }
   } catch (const ConfigError&) {
-    // Of another version, or with files that are not here: the chart shows no plan.
+    // Of another version, with files that are not here, or without room for a survey: the chart shows no plan.
   }
+  for (const runlines::Runline& line : lines)
+    lines_enu_m_.insert(lines_enu_m_.end(),
+                        {line.start_enu_m.x(), line.start_enu_m.y(), line.end_enu_m.x(), line.end_enu_m.y()});
   planned_ = lines_enu_m_.size() / kNumbers;
+  to_lay_.clear();
+  chart_.reset();
 }
 
 /// The first line of an adaptive survey is the scenario's.

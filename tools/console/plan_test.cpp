@@ -1,7 +1,12 @@
 #include "tools/console/plan.h"
 
 #include <catch2/catch.hpp>
+#include <string>
 #include <vector>
+
+#include "components/config/config_reader.h"
+#include "components/config/parse_yaml.h"
+#include "scenarios/world/world.h"
 
 using namespace ensonify;
 using console::Plan;
@@ -50,6 +55,35 @@ TEST_CASE("lines that an adaptive survey adds follow, and so do marks") {
   REQUIRE(plan.message().marks.size() == 1);
   CHECK(plan.message().marks[0].text == "<wreck>");
   CHECK(plan.message().marks[0].position_enu_m == std::array<double, 2>{3, 4});
+}
+
+TEST_CASE("lines that are laid over a chart are those of the autopilot, whichever of scenario and chart comes first") {
+  const std::string scenario = std::string(kScenario).replace(
+      std::string(kScenario).find("mission:"), std::string::npos, "mission: { speed_mps: 2, auto: { count: 3 } }\n");
+  msg::Chart chart;
+  chart.west_m = chart.south_m = -300;
+  chart.east_m = chart.north_m = 300;
+  chart.spacing_m = 10;
+  chart.height_m = msg::Array<float>({61, 61});
+  for (float& height_m : chart.height_m.flat()) height_m = -20;
+
+  Plan plan;
+  plan.read(scenario);
+  CHECK(lines_of(plan).empty());
+  plan.take(chart);
+  ConfigReader from(parse_config(scenario, "scenario.yaml"));
+  const World world = read_world(from, "scenario.yaml");
+  const auto wanted = planned_lines(MissionPlan::of(world, world.vehicles.front()), chart);
+  REQUIRE(wanted.size() == 3);
+  const std::vector<double> lines = lines_of(plan);
+  REQUIRE(lines.size() == 12);
+  CHECK(lines[8] == wanted[2].start_enu_m.x());
+  CHECK(lines[11] == wanted[2].end_enu_m.y());
+
+  Plan other;
+  other.take(chart);
+  other.read(scenario);
+  CHECK(lines_of(other) == lines);
 }
 
 TEST_CASE("a scenario that cannot be read gives no plan") {

@@ -1,4 +1,5 @@
-// A fan: every pixel shows the nearest beam at its range. Drawn as the head has it, along its own axis.
+// A fan: every pixel shows the nearest beam at its range. Drawn as the head has it, along its own axis: to scale (polar), or with
+// beams from left to right and ranges from one edge to the other (rectangular).
 import { View } from "./messages";
 import { EMPTY, IN_MEMORY, Limits, pixels } from "./palette";
 
@@ -14,16 +15,41 @@ export interface Place {
   level_db: number | null; // null: nothing was received there
 }
 
-/** The part of the plane that a fan covers, in metres, and its scale. */
-export interface Frame {
-  left_m: number;
-  top_m: number; // along-axis distance of the upper edge
-  metre_px: number;
-  upward: boolean; // the head looks forward: ahead is up
+interface Polar {
+  range: number;
+  angle: number;
+}
+
+/** Between pixels of the canvas and ranges and angles of the head. */
+interface Frame {
+  polarOf(x: number, y: number): Polar;
+  pixelOf(polar: Polar): [number, number];
+}
+
+/** To scale: a part of the plane, from its upper left corner. */
+function toScale(left_m: number, top_m: number, metre_px: number, upward: boolean): Frame {
+  const down = upward ? -1 : 1;
+  return {
+    polarOf(x, y) {
+      const across = left_m + x / metre_px;
+      const along = top_m + (down * y) / metre_px;
+      return { range: Math.hypot(across, along), angle: Math.atan2(across, along) };
+    },
+    pixelOf: ({ range, angle }) => [(range * Math.sin(angle) - left_m) * metre_px, down * (range * Math.cos(angle) - top_m) * metre_px],
+  };
+}
+
+function rectangle(width: number, height: number, first: number, last: number, far_m: number, upward: boolean): Frame {
+  const turned = (y: number) => (upward ? height - y : y);
+  return {
+    polarOf: (x, y) => ({ range: (turned(y) / height) * far_m, angle: first + (x / width) * (last - first) }),
+    pixelOf: ({ range, angle }) => [((angle - first) / (last - first)) * width, turned((range / far_m) * height)],
+  };
 }
 
 export class FanPicture {
-  frame: Frame = { left_m: 0, top_m: 0, metre_px: 1, upward: false };
+  rectangular = false;
+  private frame: Frame = toScale(0, 0, 1, false);
   private view: View | null = null;
   private cellOfPixel = new Int32Array(0);
   private mapped = "";
@@ -41,7 +67,7 @@ export class FanPicture {
     const { width, height } = this.canvas;
     const [beams, cells] = view.level.shape;
     const angles = view.beam_angle_rad.data;
-    const key = [width, height, beams, cells, view.first_range_m, view.cell_m, view.beam_axis, angles.join()].join(";");
+    const key = [width, height, beams, cells, view.first_range_m, view.cell_m, view.beam_axis, this.rectangular, angles.join()].join(";");
     if (key === this.mapped) return;
     this.mapped = key;
     const order = Array.from(angles.keys()).sort((a, b) => angles[a] - angles[b]);
@@ -54,20 +80,19 @@ export class FanPicture {
     const right = inside(Math.PI / 2) ? far_m : Math.max(0, far_m * Math.sin(last));
     const near = Math.min(0, far_m * Math.cos(Math.max(Math.abs(first), Math.abs(last))));
     const far = inside(0) ? far_m : far_m * Math.max(Math.cos(first), Math.cos(last));
-    const metre_px = Math.min(width / (right - left), height / (far - near));
-    this.radius_px = metre_px * far_m;
     const upward = view.beam_axis === "forward";
-    this.frame = {
-      left_m: (left + right) / 2 - width / metre_px / 2,
-      top_m: upward ? far : near,
-      metre_px, upward,
-    };
+    if (this.rectangular) {
+      this.radius_px = height;
+      this.frame = rectangle(width, height, first, last, far_m, upward);
+    } else {
+      const metre_px = Math.min(width / (right - left), height / (far - near));
+      this.radius_px = metre_px * far_m;
+      this.frame = toScale((left + right) / 2 - width / metre_px / 2, upward ? far : near, metre_px, upward);
+    }
     this.cellOfPixel = new Int32Array(width * height).fill(-1);
     for (let y = 0; y < height; ++y) {
       for (let x = 0; x < width; ++x) {
-        const { across, along } = this.at(x + 0.5, y + 0.5);
-        const range = Math.hypot(across, along);
-        const angle = Math.atan2(across, along);
+        const { range, angle } = this.frame.polarOf(x + 0.5, y + 0.5);
         const cell = Math.floor((range - view.first_range_m) / view.cell_m);
         if (cell < 0 || cell >= cells || !inside(angle)) continue;
         let low = 0;
@@ -80,11 +105,6 @@ export class FanPicture {
         this.cellOfPixel[y * width + x] = order[low] * cells + cell;
       }
     }
-  }
-
-  private at(x: number, y: number) {
-    const { left_m, top_m, metre_px, upward } = this.frame;
-    return { across: left_m + x / metre_px, along: upward ? top_m - y / metre_px : top_m + y / metre_px };
   }
 
   draw(view: View, limits: Limits) {
@@ -108,13 +128,8 @@ export class FanPicture {
     const view = this.view;
     if (!view) return;
     const context = this.canvas.getContext("2d", IN_MEMORY)!;
-    const { left_m, top_m, metre_px, upward } = this.frame;
     for (let i = 0; i < view.find_range_m.data.length; ++i) {
-      const range = view.find_range_m.data[i];
-      const angle = view.find_angle_rad.data[i];
-      const x = (range * Math.sin(angle) - left_m) * metre_px;
-      const along = range * Math.cos(angle);
-      const y = (upward ? top_m - along : along - top_m) * metre_px;
+      const [x, y] = this.frame.pixelOf({ range: view.find_range_m.data[i], angle: view.find_angle_rad.data[i] });
       context.fillStyle = FINDS[view.find_kind.data[i]] ?? FINDS[0];
       context.fillRect(Math.round(x) - 1, Math.round(y) - 1, 3, 3);
     }
@@ -124,12 +139,12 @@ export class FanPicture {
   placeOf(x: number, y: number): Place | null {
     const view = this.view;
     if (!view || x < 0 || y < 0 || x >= this.canvas.width || y >= this.canvas.height) return null;
-    const { across, along } = this.at(x, y);
+    const { range, angle } = this.frame.polarOf(x, y);
     const cell = this.cellOfPixel[Math.floor(y) * this.canvas.width + Math.floor(x)];
     const cells = view.level.shape[1];
     const value = cell < 0 ? 0 : view.level.data[cell];
     return {
-      across_m: across, along_m: along, range_m: Math.hypot(across, along), angle_rad: Math.atan2(across, along),
+      across_m: range * Math.sin(angle), along_m: range * Math.cos(angle), range_m: range, angle_rad: angle,
       beam: cell < 0 ? -1 : Math.floor(cell / cells),
       level_db: value ? view.level_floor_db + (value - 1) * view.level_step_db : null,
     };

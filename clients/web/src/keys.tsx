@@ -13,6 +13,7 @@ const OF_PANES = [
   ["Tab, Shift Tab", "from one thing to the next"],
   ["arrows in a picture", "move its cursor; with Shift by 20 pixels"],
   ["arrows, + and - in the chart", "move it, zoom; its middle is the cursor"],
+  ["arrows on an edge between panes", "move it; with Shift by more"],
   ["m in the chart", "measures from its middle; again: to its middle"],
 ];
 

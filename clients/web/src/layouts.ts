@@ -7,6 +7,8 @@ export const CHART = "chart";
 export const NUMBERS = "numbers";
 export const HELM = "helm";
 export const LOGS = "logs";
+export const MESSAGE = "message";
+export const HEALTH = "health";
 
 /** Heads of these components; of a record, or another component's, those that are named after it. */
 function heads(...components: string[]): string[] {
@@ -28,7 +30,7 @@ export const layout = kept<string>("layout", "survey", (value) => LAYOUT_NAMES.i
 export const byHand = kept<string[] | null>("panes", null, (value) => Array.isArray(value) && value.every((name) => typeof name === "string"));
 
 /** Names of all panes that there can be. */
-export const names = () => [...all(), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : []), ...(hasLog() ? [LOGS] : [])];
+export const names = () => [...all(), ...(hasChart() ? [CHART] : []), ...(hasValues() ? [NUMBERS] : []), ...(hasHelm() ? [HELM] : []), ...(hasLog() ? [LOGS] : []), MESSAGE];
 
 export function panes(): string[] {
   const there = names();

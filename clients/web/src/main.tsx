@@ -2,13 +2,16 @@
 import { render } from "preact";
 import { acknowledgeAll, Alarms } from "./alarms";
 import { ChartPane } from "./chart";
+import { areSizesChanged, Grid, resetSizes } from "./grid";
 import { HelmPane } from "./helm";
 import { Key, Keys, listKeys } from "./keys";
-import { CHART, choose, HELM, layout, LAYOUT_NAMES, LOGS, names, nextLayout, NUMBERS, panes, toggle } from "./layouts";
+import { CHART, choose, HEALTH, HELM, layout, LAYOUT_NAMES, LOGS, MESSAGE, names, nextLayout, NUMBERS, panes, toggle } from "./layouts";
 import { COLOURS, colours, light, LIGHTS, nextLight } from "./light";
 import { LogsPane } from "./logs";
 import { NumbersPane } from "./numbers";
-import { Head, HealthPane } from "./panes";
+import { MessagePane } from "./message";
+import { Head } from "./panes";
+import { HealthPane } from "./processes";
 import { answer, begin, connected, send, simTime_s, state, trouble } from "./store";
 
 const command = (name: string, rate = 1) => send("console_command/1", { command: name, rate });
@@ -42,7 +45,7 @@ function Bar() {
   return (
     <nav>
       <h1>Ensonify</h1>
-      <span title={s.launch}>{s.kind} {s.name}</span>
+      <span title={s.launch || s.name}>{s.kind} {s.name.split("/").pop()}</span>
       <span class={`state ${s.state}`}>{s.state}</span>
       <span>t = {simTime_s.value.toFixed(1)} s</span>
       <Controls />
@@ -56,6 +59,7 @@ function Bar() {
         <Select label="layout" of={LAYOUT_NAMES} chosen={layout.value} choose={choose} />
         <Select label="light" of={LIGHTS} chosen={light.value} choose={(name) => (light.value = name)} />
         <Select label="colours" of={COLOURS} chosen={colours.value} choose={(name) => (colours.value = name)} />
+        <button disabled={!areSizesChanged(shown().length)} onClick={() => resetSizes(shown().length)} title="panes as large as at first">reset sizes</button>
         <button aria-label="keys" title="keys" onClick={listKeys}>?</button>
         {s.items.length > 0 && (
           <select aria-label="open another run or record" value="" onChange={(e) => send("console_open/1", { id: (e.target as HTMLSelectElement).value })}>
@@ -68,11 +72,15 @@ function Bar() {
   );
 }
 
+const shown = () => [...panes(), HEALTH];
+
 function pane(name: string) {
   if (name === CHART) return <ChartPane />;
   if (name === NUMBERS) return <NumbersPane />;
   if (name === LOGS) return <LogsPane />;
+  if (name === MESSAGE) return <MessagePane />;
   if (name === HELM) return <HelmPane />;
+  if (name === HEALTH) return <HealthPane />;
   return <Head topic={name} />;
 }
 
@@ -110,10 +118,7 @@ function Page() {
       <Bar />
       <Alarms />
       <Keys keys={keys()} />
-      <div class={`panes n${panes().length}`}>
-        {panes().map((topic) => <section key={`${s.name} ${topic}`} class="pane">{pane(topic)}</section>)}
-        <section class="pane health"><HealthPane /></section>
-      </div>
+      <Grid panes={shown().map((name) => ({ name: `${s.name} ${name}`, pane: pane(name) }))} />
     </>
   );
 }

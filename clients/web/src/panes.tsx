@@ -1,4 +1,4 @@
-// The panes: pictures of heads, and the health of the run.
+// The panes of heads: fans and waterfalls.
 import { useEffect, useRef, useState } from "preact/hooks";
 import { AScan } from "./ascan";
 import { FanPicture, FINDS } from "./fan";
@@ -7,7 +7,7 @@ import { colours } from "./light";
 import { levelColours, Limits, percentiles } from "./palette";
 import { ColourBar, Swatch } from "./swatch";
 import { View } from "./messages";
-import { clock, flow, health, watch, wish } from "./store";
+import { flow, watch, wish } from "./store";
 import { Waterfall } from "./waterfall";
 
 const fixed = (value: number | null | undefined, digits = 1) => (value == null || !Number.isFinite(value) ? "-" : value.toFixed(digits));
@@ -96,6 +96,7 @@ function Scale({ ramp, limits, view, set }: { ramp: string; limits: Limits | nul
 
 const showFinds = keptChoice("detections", true, (value) => typeof value === "boolean");
 const onGround = keptChoice("ground", false, (value) => typeof value === "boolean");
+const rectangular = keptChoice("rectangular", false, (value) => typeof value === "boolean");
 const showScan = keptChoice("ascan", false, (value) => typeof value === "boolean");
 
 const WATERFALL_DB = 30; // added to waterfalls: a seabed that a pulse cuts has even levels then
@@ -120,6 +121,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     const { view: newest, given: by, auto } = kept.current;
     const limits = by ?? auto;
     if (!limits || !picture.current) return;
+    picture.current.rectangular = rectangular.value;
     picture.current.draw(newest, limits);
     if (kept.current.finds) picture.current.drawFinds();
     wish(topic, { cells: picture.current.cells, spreading_db: 0, ground: false });
@@ -147,7 +149,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     }),
     [],
   );
-  useEffect(redraw, [given, finds, colours.value]);
+  useEffect(redraw, [given, finds, colours.value, rectangular.value]);
   const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
   const chooseBeam = (wanted: number) => {
     if (Number.isInteger(wanted) && wanted >= 0 && wanted < view.level.shape[0]) setBeam(wanted);
@@ -165,6 +167,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
       {scan && <AScan view={view} beam={Math.min(beam, view.level.shape[0] - 1)} pointed_m={place && place.beam >= 0 ? place.range_m : null} gain={gainText(view)} />}
       <footer>
         <label><input type="checkbox" checked={scan} onChange={() => (showScan.value = !scan)} /> A-scan</label>
+        <label title="beams from left to right, ranges from the head to the far edge; not to scale"><input type="checkbox" checked={rectangular.value} onChange={() => (rectangular.value = !rectangular.value)} /> rectangular</label>
         {scan && (
           <label>beam <input class="beam" type="number" min={0} max={view.level.shape[0] - 1} value={beam} onInput={(e) => chooseBeam(Number((e.target as HTMLInputElement).value))} /></label>
         )}
@@ -177,7 +180,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
         <span class="cursor">
           {place
             ? `range ${fixed(place.range_m)} m, ${fixed(degrees(place.angle_rad))}°, beam ${place.beam < 0 ? "-" : place.beam}; across ${fixed(place.across_m)} m, ${view.beam_axis === "forward" ? "ahead" : "down"} ${fixed(place.along_m)} m; ${fixed(place.level_db)} dB`
-            : "as the head has it; straight rays at the head's sound speed"}
+            : `as the head has it${rectangular.value ? ", not to scale" : ""}; straight rays at the head's sound speed`}
         </span>
       </footer>
     </>
@@ -257,46 +260,4 @@ export function Head({ topic }: { topic: string }) {
   }), []);
   if (!first) return <header><h2>{topic}</h2> waits for a ping</header>;
   return first.level.shape[0] > 2 ? <Fan topic={topic} first={first} /> : <Sidescan topic={topic} early={early.current} />;
-}
-
-const time_s = (value: number) => `${value.toFixed(1)} s`;
-
-export function HealthPane() {
-  const c = clock.value;
-  const rows = Object.entries(health.value).sort(([a], [b]) => a.localeCompare(b));
-  return (
-    <>
-      <header><h2>health</h2> as the processes and the clock say</header>
-      <div class="scroll" tabIndex={0}>
-        {c && (
-          <p>
-            clock: {c.state}; {c.rate ? `${c.rate} x real time asked for, ` : "as fast as possible, "}
-            {fixed(c.rate_factor, 2)} reached; {fixed(c.lateness_s, 3)} s late, {c.slips} slips ({time_s(c.slip_s)})
-          </p>
-        )}
-        <table>
-          <thead><tr><th>process</th><th>state</th><th>why</th><th>counts</th></tr></thead>
-          <tbody>
-            {rows.map(([name, h]) => (
-              <tr key={name} class={h.state}>
-                <td>{name}</td><td>{h.state}</td><td>{h.message}</td>
-                <td>{h.counters.filter((k) => k.count).map((k) => `${k.name} ${k.count}`).join(", ")}</td>
-              </tr>
-            ))}
-          </tbody>
-        </table>
-        {rows.length === 0 && <p class="note">No process has reported since this page was opened: they report when something changes.</p>}
-        {c && (
-          <table>
-            <thead><tr><th>process</th><th>events</th><th>cost</th><th>late</th><th>worst</th></tr></thead>
-            <tbody>
-              {c.participants.map((p) => (
-                <tr key={p.name}><td>{p.name}</td><td>{p.grants}</td><td>{time_s(p.cost_s)}</td><td>{p.late_events}</td><td>{time_s(p.worst_lateness_s)}</td></tr>
-              ))}
-            </tbody>
-          </table>
-        )}
-      </div>
-    </>
-  );
 }

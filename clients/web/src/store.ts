@@ -72,6 +72,20 @@ export function watchLog(take: (news: ConsoleLog) => void): () => void {
   };
 }
 
+let text: { topic: string; take(frame: Frame): void } | null = null;
+
+/** Opens a topic whose messages are read as text, whatever they are; the result closes it. */
+export function watchText(topic: string, take: (frame: Frame) => void): () => void {
+  const mine = { topic, take };
+  text = mine;
+  watchAll();
+  return () => {
+    if (text !== mine) return; // another has taken its place
+    text = null;
+    watchAll();
+  };
+}
+
 const MOST_VALUES = 32;
 
 /** All numbers (TOPIC.field) that a pane shows from now on. */
@@ -100,11 +114,13 @@ function watchAll() {
   const heads = [...wishes].map(([topic, { cells, spreading_db }]) => ({ topic, cells, spreading_db, peak: false, absorption_dbpm: 0 }));
   const ground = [...wishes].filter(([, wished]) => wished.ground).map(([topic]) => topic);
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
-  const states = small.slice(0, 58 - heads.length).map(({ name }) => plain(name));
+  const states = small.slice(0, 57 - heads.length).map(({ name }) => plain(name));
   const values = wantedValues();
+  const shown = new Set([...heads, ...states.map(({ topic }) => ({ topic }))].map(({ topic }) => topic));
+  const read = text?.topic && !shown.has(text.topic) && !missionTopics.includes(text.topic) ? [plain(text.topic)] : [];
   keepSeries(values);
   const made = [...(chart ? CHART : []), ...(values.length ? [VALUES] : []), ...missionTopics, ALARMS, ...(log ? [LOG] : [])].map(plain);
-  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states], values, ground });
+  wire?.send("console_watch/1", { hidden: document.hidden, topics: [...heads, ...made, ...states, ...read], values, ground });
 }
 
 /** Opens a topic for a pane; the result closes it. */
@@ -137,7 +153,24 @@ function drawDue() {
   due.clear();
 }
 
+/** Topics of which this page has received something: messages and bytes so far, and in the second before. */
+export const received = signal<Record<string, { messages: number; bytes: number; bytesPerS: number }>>({});
+let counted: Record<string, { messages: number; bytes: number }> = {};
+
+function count({ topic, bytes }: Frame) {
+  const known = (counted[topic] ??= { messages: 0, bytes: 0 });
+  ++known.messages;
+  known.bytes += bytes;
+}
+
+/** Once a second of wall time, with the gateway's report. */
+function sayReceived() {
+  received.value = Object.fromEntries(Object.entries(counted).map(([topic, now]) => [topic, { ...now, bytesPerS: now.bytes - (received.value[topic]?.bytes ?? 0) }]));
+}
+
 function take(frame: Frame) {
+  count(frame);
+  if (text?.topic === frame.topic) text.take(frame);
   if (frame.type === "view/1") {
     simTime_s.value = (frame.content as View).stamp_ns * 1e-9;
     drawers.get(frame.topic)?.take(frame.content as View);
@@ -172,6 +205,8 @@ function take(frame: Frame) {
       missions.value = {};
       clearAlarms();
       clearSeries();
+      counted = {};
+      received.value = {};
       simTime_s.value = 0;
     }
     state.value = fresh;
@@ -180,8 +215,11 @@ function take(frame: Frame) {
     link.value = frame.content as ConsoleFlow;
     flow.value = Object.fromEntries(link.value.topics.map((topic) => [topic.topic, topic]));
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
+    sayReceived();
   } else if (frame.type === "console_answer/1") {
     answer.value = (frame.content as ConsoleAnswer).error;
+  } else {
+    wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
   }
 }
 

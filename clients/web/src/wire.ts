@@ -8,6 +8,7 @@ export interface Frame {
   epoch: number;
   seq: number;
   tSim_ns: number;
+  bytes: number; // of the whole frame
   content: unknown;
 }
 
@@ -51,6 +52,7 @@ export function decodeFrame(bytes: ArrayBuffer): Frame {
     epoch: head.getUint32(8, true),
     seq: Number(head.getBigUint64(32, true)),
     tSim_ns: Number(head.getBigInt64(40, true)),
+    bytes: bytes.byteLength,
     content: withArrays(decode(new Uint8Array(bytes, mapAt, mapBytes)), take),
   };
 }
