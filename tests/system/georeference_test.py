@@ -9,7 +9,7 @@ import support
 
 SECONDS = 6
 NAME = "0000_20250601_120000_boat.kmall"
-LAUNCH = support.bay(SECONDS, "[bow/soundings]") + "  log: { run: logger, config: { head: bow, formats: [kmall] } }\n"
+LAUNCH = support.bay(SECONDS, "[bow/soundings]") + "  log: { run: logger, config: { head: bow, formats: [kmall, all] } }\n"
 QUIET = [f"nav.sigma_{what}=0" for what in ("roll_deg", "pitch_deg", "heading_deg", "heave_m", "horizontal_m", "vertical_m", "velocity_mps",
                                             "sound_speed_mps")]
 STEEP = ('water={"profile":[{"depth_m":0,"sound_speed_mps":1510},{"depth_m":3,"sound_speed_mps":1505},{"depth_m":8,"sound_speed_mps":1485},'
@@ -41,6 +41,11 @@ class Georeference(support.SystemTest):
         self.assertGreater(found["soundings"], 256 * 5 * (SECONDS - 2))
         self.assertEqual((found["without_attitude"], found["faults"]), (0, 0))
         self.assertLess(found["vertical"]["largest_m"], 0.01)
+        # .all has times to 1 ms, attitudes and angles to 0.01 degrees, P at 5 Hz: 2 and 5 cm, and 3 and 8 at most.
+        other = json.loads(self.georeference(out / NAME.replace(".kmall", ".all"), "--within", 0.02, 0.05, "--json").stdout)
+        self.assertEqual(other["soundings"], found["soundings"])
+        self.assertLess(other["vertical"]["largest_m"], 0.03)
+        self.assertLess(other["horizontal"]["largest_m"], 0.08)
         with ensonify.Record(out / "run.mcap") as record:
             recorded = {m.content.ping: m.content for m in record.messages("bow/soundings")}
         rows = self.rows(table)
@@ -60,7 +65,7 @@ class Georeference(support.SystemTest):
         out = self.survey()
         self.georeference(out / NAME, "--within", 0.005, 0.02, code=1)  # the default heave's white noise
         self.georeference(out / NAME, "--within", 0.06, 0.02)
-        self.assertIn("is no .kmall file", self.georeference(out / "run.mcap", code=2).stderr)
+        self.assertIn("is neither a .kmall nor a .all file", self.georeference(out / "run.mcap", code=2).stderr)
         whole = (out / NAME).read_bytes()
         for kind, said in ((b"#IIP", "holds no installation (#IIP)"), (b"#SVP", "holds no sound speed profile (#SVP)"),
                            (b"#SKM", "holds no attitude (#SKM)")):

@@ -44,6 +44,23 @@ TEST_CASE("an installation that lacks something is refused by its name") {
                     Contains("nearly along each other"));
 }
 
+TEST_CASE("a .all file's installation has two arrays, or one head") {
+  const std::string both =
+      "WLZ=-4.9,S1X=1,S1Y=2,S1Z=3,S1R=0,S1P=0,S1H=0,S2X=1,S2Y=2.5,S2Z=3,S2R=0,S2P=0,S2H=180,APS=1,P2X=4,P2Y=5,P2Z=-9,";
+  const VesselOfAll vessel = vessel_of_all("f", both, 2040);
+  CHECK(vessel.transmitters[0].mounting(1).position_body_m.isApprox(frames::Vec3(1, 2.0131, 2.994)));
+  CHECK(vessel.receivers[0].mounting(0).position_body_m.isApprox(frames::Vec3(0.989, 2.5, 2.994)));
+  CHECK(vessel.origin_m == frames::Vec3(4, 5, -4.9));
+  CHECK_FALSE(vessel.heave_at_transmitter);
+  CHECK(vessel_of_all("f", both, 710).heave_at_transmitter);
+  const VesselOfAll head = vessel_of_all("f", "WLZ=0,S1X=1,S1Y=2,S1Z=3,S1R=0,S1P=0,S1H=0,P1X=0,P1Y=0,", 2045);
+  CHECK(head.receivers[0].installed.position_body_m == head.transmitters[0].installed.position_body_m);
+  CHECK_THROWS_WITH(vessel_of_all("f", both + "STC=2,", 2040), Contains("two transmitters (STC=2)"));
+  CHECK_THROWS_WITH(vessel_of_all("f", "WLZ=0,S1X=1,", 2040), Contains("installation has no S1"));
+  CHECK_THROWS_WITH(vessel_of_all("f", "WLZ=deep," + both.substr(both.find(',') + 1), 2040),
+                    Contains("WLZ=deep is no number"));
+}
+
 TEST_CASE("a track says nothing where it has a gap, and beyond its ends") {
   constexpr std::int64_t kSecond = 1'000'000'000;
   Track track;
@@ -88,4 +105,18 @@ TEST_CASE("soundings of a genuine .kmall file are where it has them") {
   CHECK(as_is.vertical().p95_m < 0.03);
   CHECK(as_is.horizontal().p95_m < 0.03);
   CHECK(by_face.vertical().p95_m > 0.1);
+}
+
+TEST_CASE("soundings of a genuine .all file are where it has them") {
+  // An EM 710 in 123 m of water, 250 m to either side.
+  const auto file = formats::sample::genuine("records/em710_g_7041.all");
+  if (!file) {
+    WARN("skipped: no data/records/em710_g_7041.all in the folder that ENSONIFY_SHARED names");
+    return;
+  }
+  Differences differences;
+  const Summary summary = georeference_all(file->string(), {}, [&](const Placed& placed) { differences.add(placed); });
+  CHECK(summary.soundings == 3106);
+  CHECK(differences.vertical().p95_m < 0.05);
+  CHECK(differences.horizontal().p95_m < 0.06);
 }

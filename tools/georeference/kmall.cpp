@@ -10,8 +10,7 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/kmall/reader.h"
 #include "components/runtime/tool.h"
-#include "tools/georeference/ping.h"
-#include "tools/georeference/survey.h"
+#include "tools/georeference/survey_file.h"
 
 namespace ensonify::georeference_tool {
 namespace {
@@ -19,18 +18,6 @@ namespace {
 using namespace formats::kmall;
 using frames::Vec3;
 using Knots = std::vector<refraction::Knot>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-bool known(double latitude_deg, double longitude_deg) {
-  return std::abs(latitude_deg) < 90.0 && std::abs(longitude_deg) <= 180.0;
-}
-
-/// What a motion sensor said.
-struct Moved {
-  std::int64_t unix_ns;
-  float roll_deg, pitch_deg, heading_deg, heave_down_m;
-};
 
 Moved moved_of(const Motion::Sample& sample) {
   return {std::int64_t{sample.time_s} * 1'000'000'000 + sample.time_ns, sample.roll_deg, sample.pitch_deg,
@@ -42,18 +29,16 @@ class File {
  public:
   File(const std::string& file, const Trace& trace) : file_(file), trace_(trace) {
     std::vector<Moved> motion;
-    std::map<std::int64_t, frames::Geodetic> fixes, fixes_of_pings;
+    Fixes of_pings;
     each([&](const Datagram& datagram) {
       if (const auto* text = std::get_if<Installation>(&datagram.body); text != nullptr && !vessel_)
         vessel_ = vessel_of_kmall(file_, text->text);
       if (const auto* profile = std::get_if<formats::kmall::SoundSpeedProfile>(&datagram.body))
         profiles_[datagram.unix_ns()] = knots_of(*profile);
-      if (const auto* position = std::get_if<Position>(&datagram.body);
-          position != nullptr && known(position->latitude_deg, position->longitude_deg))
-        fixes[datagram.unix_ns()] = {position->latitude_deg, position->longitude_deg};
-      if (const auto* ping = std::get_if<Soundings>(&datagram.body);
-          ping != nullptr && known(ping->pose.latitude_deg, ping->pose.longitude_deg))
-        fixes_of_pings[datagram.unix_ns()] = {ping->pose.latitude_deg, ping->pose.longitude_deg};
+      if (const auto* position = std::get_if<Position>(&datagram.body))
+        fixes_.add(datagram.unix_ns(), {position->latitude_deg, position->longitude_deg});
+      if (const auto* ping = std::get_if<Soundings>(&datagram.body))
+        of_pings.add(datagram.unix_ns(), {ping->pose.latitude_deg, ping->pose.longitude_deg});
       if (const auto* samples = std::get_if<Motion>(&datagram.body);
           samples != nullptr && vessel_ && samples->sensor == vessel_->motion_sensor)
         std::ranges::transform(samples->samples, std::back_inserter(motion), moved_of);
@@ -61,13 +46,12 @@ class File {
     if (!vessel_) throw UserError(file_ + ": holds no installation (#IIP)");
     if (profiles_.empty()) throw UserError(file_ + ": holds no sound speed profile (#SVP)");
     if (motion.empty()) throw UserError(file_ + ": holds no attitude (#SKM)");
-    if (fixes.empty()) fixes = std::move(fixes_of_pings);
-    if (fixes.empty()) throw UserError(file_ + ": holds no position (#SPO)");
-    projection_.emplace(fixes.begin()->second);
-    make_track(motion, fixes);
+    if (fixes_.empty()) fixes_ = std::move(of_pings);
+    if (fixes_.empty()) throw UserError(file_ + ": holds no position (#SPO)");
+    make_track(motion);
   }
 
-  Summary place(const std::function<void(const Placed&)>& take) {
+  Summary place(const TakePlaced& take) {
     Summary summary;
     summary.faults = each([&](const Datagram& datagram) {
       if (const auto* ping = std::get_if<Soundings>(&datagram.body)) place(*ping, datagram.unix_ns(), take, summary);
@@ -86,55 +70,26 @@ class File {
 
   Knots knots_of(const formats::kmall::SoundSpeedProfile& profile) const {
     Knots knots;
-    for (const auto& node : profile.nodes) {
-      const double depth_m = node.depth_m;
-      const refraction::Knot knot{depth_m, speed(node.sound_speed_mps, fmt::format("its profile at {:g} m", depth_m))};
-      if (std::isfinite(depth_m) && (knots.empty() || depth_m > knots.back().depth_m)) knots.push_back(knot);
-    }
+    for (const auto& node : profile.nodes) add_node(file_, node.depth_m, node.sound_speed_mps, knots);
     if (knots.empty()) throw UserError(file_ + ": its profile has no node");
     return knots;
   }
 
-  double speed(float stated_mps, const std::string& where) const {
-    const double speed_mps = stated_mps;
-    constexpr double kSlowest_mps = refraction::SoundSpeedProfile::kSlowest_mps,
-                     kFastest_mps = refraction::SoundSpeedProfile::kFastest_mps;
-    if (speed_mps >= kSlowest_mps && speed_mps <= kFastest_mps) return speed_mps;
-    throw UserError(fmt::format("{}: {} has a sound speed of {:g} m/s; allowed: {:.0f} to {:.0f} m/s", file_, where,
-                                speed_mps, kSlowest_mps, kFastest_mps));
-  }
-
   /// Heights of the reference point count from the water line: by heave, and the water line of the vessel at rest.
-  void make_track(const std::vector<Moved>& motion, const std::map<std::int64_t, frames::Geodetic>& fixes) {
+  void make_track(const std::vector<Moved>& motion) {
     for (const Moved& one : motion) {
-      const double roll_deg = one.roll_deg, pitch_deg = one.pitch_deg, heading_deg = one.heading_deg;
-      const double heave_m = one.heave_down_m;
-      if (!std::isfinite(roll_deg + pitch_deg + heading_deg + heave_m)) continue;
+      if (!one.finite()) continue;
       frames::Pose body;
-      body.position_enu_m.head<2>() = position_at(fixes, one.unix_ns);
-      body.position_enu_m.z() = vessel_->water_line_m - heave_m;
-      body.enu_from_body = frames::enu_from_ned() * turn_of(roll_deg, pitch_deg, heading_deg) *
+      body.position_enu_m.head<2>() = fixes_.enu_at(one.unix_ns);
+      body.position_enu_m.z() = vessel_->water_line_m - static_cast<double>(one.heave_down_m);
+      body.enu_from_body = frames::enu_from_ned() * turn_of(one.roll_deg, one.pitch_deg, one.heading_deg) *
                            vessel_->body_from_motion_sensor.conjugate();
       track_.add(one.unix_ns, body);
     }
     track_.sort();
   }
 
-  /// Straight between fixes, and the nearest outside them: a ping needs how far the vessel goes meanwhile, and its own
-  /// datagram says where it was.
-  frames::Vec2 position_at(const std::map<std::int64_t, frames::Geodetic>& fixes, std::int64_t unix_ns) const {
-    const auto after = fixes.lower_bound(unix_ns);
-    if (after == fixes.end()) return projection_->enu_of(fixes.rbegin()->second);
-    const frames::Vec2 later = projection_->enu_of(after->second);
-    if (after == fixes.begin()) return later;
-    const auto before = std::prev(after);
-    const frames::Vec2 earlier = projection_->enu_of(before->second);
-    return earlier + static_cast<double>(unix_ns - before->first) / static_cast<double>(after->first - before->first) *
-                         (later - earlier);
-  }
-
-  void place(const Soundings& ping, std::int64_t unix_ns, const std::function<void(const Placed&)>& take,
-             Summary& summary) const {
+  void place(const Soundings& ping, std::int64_t unix_ns, const TakePlaced& take, Summary& summary) const {
     ++summary.pings;
     const std::size_t transmitter = std::min<std::size_t>(ping.ping.transmitter, vessel_->transmitters.size() - 1),
                       receiver = std::min<std::size_t>(ping.ping.receiver, vessel_->receivers.size() - 1);
@@ -177,7 +132,7 @@ class File {
   }
 
   double face_speed(const Soundings& ping) const {
-    return speed(ping.pose.sound_speed_mps, fmt::format("ping {} at the transducer", ping.ping.ping));
+    return checked_speed(file_, ping.pose.sound_speed_mps, fmt::format("ping {} at the transducer", ping.ping.ping));
   }
 
   Placed placed(const Soundings& ping, const Sounding& one, std::int64_t unix_ns, const frames::Pose& body,
@@ -188,15 +143,11 @@ class File {
     placed.depth_m = -place_enu_m.z();
     const double height_m = ping.pose.ellipsoid_height_m;
     placed.height_m = height_m == 0.0 ? std::numeric_limits<double>::quiet_NaN() : height_m - placed.place_m.z();
-    // North and east of the reference point, as the ping's own datagram has it.
-    const bool stated = known(ping.pose.latitude_deg, ping.pose.longitude_deg);
-    const frames::Vec2 reference = stated ? projection_->enu_of({ping.pose.latitude_deg, ping.pose.longitude_deg})
-                                          : frames::Vec2(body.position_enu_m.head<2>());
-    const frames::Vec2 away = (place_enu_m - body.position_enu_m).head<2>();
-    const double turn_rad = projection_->convergence_rad(reference);
-    const frames::Vec2 on_grid(std::cos(turn_rad) * away.x() - std::sin(turn_rad) * away.y(),
-                               std::sin(turn_rad) * away.x() + std::cos(turn_rad) * away.y());
-    placed.position = projection_->geodetic_of(reference + on_grid);
+    // From the reference point where the ping's own datagram has it.
+    const frames::Geodetic stated{ping.pose.latitude_deg, ping.pose.longitude_deg};
+    const frames::Vec2 reference =
+        Fixes::is_known(stated) ? fixes_.projection().enu_of(stated) : frames::Vec2(body.position_enu_m.head<2>());
+    placed.position = position_of(fixes_.projection(), reference, (place_enu_m - body.position_enu_m).head<2>());
     return placed;
   }
 
@@ -204,14 +155,13 @@ class File {
   const Trace& trace_;
   std::optional<Vessel> vessel_;
   std::map<std::int64_t, Knots> profiles_;  // by the time from which they are in force
-  std::optional<frames::LocalProjection> projection_;
+  Fixes fixes_;
   Track track_;
 };
 
 }  // namespace
 
-Summary georeference_kmall(const std::string& file, const Trace& trace,
-                           const std::function<void(const Placed&)>& take) {
+Summary georeference_kmall(const std::string& file, const Trace& trace, const TakePlaced& take) {
   return File(file, trace).place(take);
 }
 

@@ -29,7 +29,7 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("FILE", options.file, ".kmall file")->required();
+  app.add_option("FILE", options.file, ".kmall or .all file")->required();
   app.add_option("--out", options.out, "CSV file: a row for each sounding");
   app.add_option("--tide", options.tide, "a gauge's heights (CSV, or CARIS's .tid): depths from chart datum too");
   app.add_flag(
@@ -110,17 +110,20 @@ void print(const Options& options, const Summary& summary, const Differences& di
 
 int georeference(const Options& options) {
   formats::Window window(options.file);
-  if (formats::recognise(window) != formats::Format::kmall)
-    throw UserError(options.file + ": is no .kmall file; allowed: .kmall");
+  const formats::Format format = formats::recognise(window);
+  if (format != formats::Format::kmall && format != formats::Format::all)
+    throw UserError(options.file + ": is neither a .kmall nor a .all file; these are allowed");
   std::optional<formats::Tide> tide;
   if (!options.tide.empty()) tide.emplace(options.tide);
   std::optional<Table> table;
   if (!options.out.empty()) table.emplace(options.out, tide);
   Differences differences;
-  const Summary summary = georeference_kmall(options.file, options.trace, [&](const Placed& placed) {
+  const TakePlaced take = [&](const Placed& placed) {
     differences.add(placed);
     if (table) table->add(placed);
-  });
+  };
+  const auto georeference_file = format == formats::Format::all ? georeference_all : georeference_kmall;
+  const Summary summary = georeference_file(options.file, options.trace, take);
   if (interrupted()) return kExitInterrupted;
   if (table) table->close();
   if (summary.soundings == 0) throw UserError(options.file + ": holds no accepted sounding with attitude");

@@ -30,12 +30,17 @@ struct Summary {
   std::uint64_t faults = 0;          // passed over
 };
 
+using TakePlaced = std::function<void(const Placed&)>;
+
 struct Trace {
   bool surface_speed = true;  // at the transducer's face; else that of the profile
 };
 
 /// Places the accepted soundings of a .kmall file anew, in its order. Throws UserError where the file does not say what
 /// is needed: installation, profile, attitude, position.
-Summary georeference_kmall(const std::string& file, const Trace& trace, const std::function<void(const Placed&)>& take);
+Summary georeference_kmall(const std::string& file, const Trace& trace, const TakePlaced& take);
+
+/// The same of a .all file. Its own places of soundings are turned to the reference point.
+Summary georeference_all(const std::string& file, const Trace& trace, const TakePlaced& take);
 
 }  // namespace ensonify::georeference_tool

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +29,16 @@ struct Vessel {
 
 /// By the installation text of a .kmall file. Throws UserError with `file` and the group that is missing or wrong.
 Vessel vessel_of_kmall(const std::string& file, std::string_view text);
+
+/// What the installation of a .all file says besides.
+struct VesselOfAll : Vessel {
+  frames::Vec3 origin_m;              // of x and y of soundings: the active antenna's place at the water line
+  bool heave_at_transmitter = false;  // where heave counts: there, without rotation, or at the reference point
+};
+
+/// By the installation text of a .all file, for this model, with the phase centres that its makers state for it. Throws
+/// UserError for a key that is missing or wrong, and for two transmitters.
+VesselOfAll vessel_of_all(const std::string& file, std::string_view text, std::uint16_t model);
 
 /// Turned by degrees of roll, pitch and heading.
 frames::Quaternion turn_of(double roll_deg, double pitch_deg, double heading_deg);
