@@ -21,15 +21,24 @@ SOUND_SPEED_MPS = 1500.0
 STEP_M = 0.06
 
 
-def fan(pings=20, beams=61, samples=1000, rate_hz=10.0, target=(12, 35.1), level_db=120.0, step_m=STEP_M):
-    """A head of 120 degrees in silence of 60 dB, with one sample of one beam that stands out: `target` is its beam and range."""
+def fan(pings=20, beams=61, samples=1000, rate_hz=10.0, target=(12, 35.1), level_db=120.0, step_m=STEP_M, roll_deg=lambda t_s: None):
+    """A head of 120 degrees in silence of 60 dB, with one sample of one beam that stands out: `target` is its beam and range. By `roll_deg`
+    it hangs with its starboard side down; None: nobody knows."""
     angles = np.linspace(-np.pi / 3, np.pi / 3, beams).astype("f4")
     for ping in range(pings):
         amplitude = np.full((beams, samples), 1e3, "f4")
         amplitude[target[0], round(target[1] / step_m)] = 10 ** (level_db / 20)
         yield "bow/ping", ensonify.Ping(
             stamp_ns=int(ping / rate_hz * 1e9), ping=ping, kind="multibeam", sample_period_s=2 * step_m / SOUND_SPEED_MPS,
-            first_sample_s=0.0, beam_angle_rad=angles, amplitude_upa=amplitude, range_m=samples * step_m, **synthetic_heads.applied())
+            first_sample_s=0.0, beam_angle_rad=angles, amplitude_upa=amplitude, range_m=samples * step_m, **hanging(roll_deg(ping / rate_hz)),
+            **synthetic_heads.applied())
+
+
+def hanging(roll_deg):
+    """Pose of a head for a ping."""
+    if roll_deg is None:
+        return {}
+    return {"pose_time_s": np.zeros(1), "pose_position_enu_m": np.zeros((1, 3)), "pose_enu_from_head": np.array([angles_wxyz(0.5, 0.0, np.radians(roll_deg))])}
 
 
 def sides(pings=20, samples=600, rate_hz=10.0):

@@ -1,6 +1,7 @@
 """The page in a real browser: records of known content, and laws of what is drawn. Screenshots go to ENSONIFY_SHOTS, where that is set."""
 import math
 import os
+import re
 import time
 import unittest
 
@@ -108,6 +109,34 @@ class Page(BrowserTest):
             self.assertIn("beam 12; across -20.", line)
             self.assertIn("120.0 dB", line)
             self.assertEqual(self.errors, [])
+
+    def test_upright_a_beam_lies_where_it_points_while_the_head_rolls(self):
+        """Beam 12 is 36 degrees to port of the head's axis, and the head rolls by 10 degrees."""
+        target, step_m, samples = (12, 35.04), 0.12, 500
+        rolls = {False: [], True: []}
+        at = self.console(write_record(self.folder / "roll.mcap", fan(pings=40, target=target, samples=samples, step_m=step_m, roll_deg=lambda t_s: 10 * math.sin(2 * math.pi * t_s / 4))), "--loop")
+        page = self.open(at.control)
+        self.wait_for_flow(page)
+        for upright in (False, True):
+            page.get_by_label("upright", exact=True).set_checked(upright)
+            page.wait_for_selector(f"text={'upright;' if upright else 'as the head has it'}")
+            page.wait_for_timeout(2500)  # more than half a roll
+            for _ in range(4):
+                page.get_by_role("button", name="pause").click()
+                page.wait_for_selector("text=resume")
+                page.wait_for_timeout(300)
+                bright = self.brightest(page, "bow/view")[3]
+                line = self.cursor(page, "bow/view", *bright)
+                self.assertIn("beam 12", line)
+                angle_deg = float(re.search(r"m, (-?[\d.]+)°", line)[1])
+                ping = int(page.locator(".pane header").first.inner_text().split("ping ")[1].split()[0])
+                roll_deg = 10 * math.sin(2 * math.pi * (ping % 40) / 40)
+                self.assertAlmostEqual(angle_deg, -36 - (roll_deg if upright else 0), delta=1.2)  # a beam is 2 degrees wide
+                rolls[upright].append(roll_deg)
+                page.get_by_role("button", name="resume").click()
+                page.wait_for_timeout(350)
+        self.assertGreater(np.ptp(rolls[True]), 3)  # it did roll
+        self.assertEqual(self.errors, [])
 
     def test_a_waterfall_has_the_newest_ping_on_top_and_port_to_the_left(self):
         at = self.console(write_record(self.folder / "sides.mcap", sides(pings=200)), "--loop", "--rate", "5")

@@ -30,6 +30,14 @@ expect:
   - {name: turns, bounds: {topic: auv/pose, field: position_enu_m.1, max: -190}}
 """
 
+LATE = """\
+ensonify: launch/1
+scenario: SCENARIO
+duration_s: 4
+processes:
+  auv: {run: vehicle}
+  foreign: {run: [COMMAND]}
+"""
 
 PACKAGES = ("zeromq@6.8.0", "@msgpack/msgpack@3.1.3")  # zeromq brings a built libzmq inside the package
 
@@ -81,6 +89,26 @@ class Foreign(unittest.TestCase):
     def test_the_expectations_can_fail(self):
         code, out, error = self.run_it("ipc", out_of=("above: 25", "above: 60"))
         self.assertEqual(code, 1, error + out)
+
+    def said_of_lateness(self, *words):
+        launch = self.folder / "late.yaml"
+        launch.write_text(LATE.replace("SCENARIO", str(SCENARIO)).replace("COMMAND", ", ".join([sys.executable, str(HERE / "late_client.py"), *words])))
+        out = self.folder / f"late{len(words)}"
+        done = subprocess.run([RUN, launch, "--rate", "1", "--quiet", "--out", out], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        late_events = {p["name"]: p["late_events"] for p in json.loads((out / "clock.json").read_text())["participants"]}
+        self.assertGreater(late_events["foreign"], 0)
+        return json.loads((out / "log/foreign.log").read_text().splitlines()[-1])
+
+    def test_who_has_a_port_for_viewers_is_told_that_the_run_waits_for_it_and_when_no_more(self):
+        said = self.said_of_lateness("view")
+        words = [late for _, late in said]
+        self.assertEqual(words, [i % 2 == 0 for i in range(len(words))])  # told when it changes, and not again
+        self.assertFalse(words[-1])
+        self.assertTrue(any(late and event > 10 for event, late in said))  # events 10 to 13 take 0.8 s too long
+
+    def test_who_has_none_is_not_told(self):
+        self.assertEqual(self.said_of_lateness(), [])
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@
 #include "messages/soundings.h"
 #include "messages/terrain.h"
 #include "tools/console/relief.h"
+#include "tools/console/upright.h"
 
 namespace ensonify::console {
 
@@ -70,6 +71,8 @@ msg::Packet packet_of(const char* topic, const M& message, std::uint64_t seq) {
   return packet;
 }
 
+std::string upright_topic_of(const std::string& view_topic) { return view_topic + std::string(kUpright); }
+
 bool plans(const std::string& type) { return type == msg::NextLine::kType || type == msg::Mark::kType; }
 
 }  // namespace
@@ -111,7 +114,7 @@ void Desk::ask_source() {
     const std::string name = makes_view_of(topic, entry.second) ? view_topic_of(topic) : topic;
     const std::string made = soundings ? kCellsTopic : is_track(entry.second) ? kTrackTopic : "";
     const auto wants = [&](const Flow* flow) {
-      return flow->watches(name) || (!made.empty() && flow->watches(made)) ||
+      return flow->watches(name) || flow->watches(upright_topic_of(name)) || (!made.empty() && flow->watches(made)) ||
              (soundings && wants_finds(*flow, process_of(topic))) ||
              (places_world(entry.second) && !(entry.second == msg::Chart::kType && has_relief_) &&
               (flow->watches(kReliefTopic) || flow->watches(kPlanTopic))) ||
@@ -235,10 +238,13 @@ void Desk::take_chart(const msg::Chart& chart, WallTime now) {
   plan_is_new_ = true;
 }
 
-void Desk::offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now) {
-  const Offer offer{topic, way, std::make_shared<const msg::Packet>(std::move(packet)), now};
-  newest_[topic] = offer;
+void Desk::give(const Offer& offer) {
+  if (offer.way != Way::line) newest_[offer.topic] = offer;
   for (Flow* flow : viewers_) flow->offer(offer);
+}
+
+void Desk::offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now) {
+  give({topic, way, std::make_shared<const msg::Packet>(std::move(packet)), now});
 }
 
 void Desk::offer_relief(const msg::ConsoleRelief& relief, WallTime now) {
@@ -272,7 +278,8 @@ bool Desk::makes_view_of(const std::string& topic, const std::string& type) cons
 bool Desk::wants_finds(const Flow& flow, const std::string& head) const {
   const std::string begin = head + "/" + std::string(kView);
   return std::any_of(flow.watched().begin(), flow.watched().end(), [&](const msg::ConsoleWatched& watched) {
-    return watched.topic.starts_with(begin) && !type_of_.contains(watched.topic);
+    const std::string view = watched.topic.substr(0, watched.topic.find(kUpright));
+    return view.starts_with(begin) && !type_of_.contains(view);
   });
 }
 
@@ -315,11 +322,14 @@ void Desk::take(msg::Packet packet, WallTime now) {
     return;  // as above
   }
   offer.packet = std::make_shared<const msg::Packet>(std::move(packet));
-  if (offer.way != Way::line) newest_[offer.topic] = offer;
-  for (Flow* flow : viewers_) flow->offer(offer);
+  give(offer);
+  if (offer.way != Way::picture) return;
+  offer.topic = upright_topic_of(offer.topic);
+  give(offer);
 }
 
 msg::View Desk::picture_of(const Sending& sending, const std::string& type) const {
+  if (sending.offer.topic.ends_with(kUpright)) return upright(slant_picture_of(sending, type));
   const auto altitude = altitude_m_.find(sending.offer.topic);
   const bool ground = sending.wish.ground && altitude != altitude_m_.end();
   return ground ? on_ground(slant_picture_of(sending, type), altitude->second) : slant_picture_of(sending, type);
@@ -343,14 +353,14 @@ msg::Packet Desk::message_of(const Sending& sending) {
   const auto type = type_of_.find(packet.topic);
   if (type == type_of_.end() || (type->second != msg::Ping::kType && type->second != msg::View::kType)) return packet;
   const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
-    return made.of == sending.offer.packet && made.wish == sending.wish;
+    return made.of == sending.offer.packet && made.topic == sending.offer.topic && made.wish == sending.wish;
   });
   if (known != made_.end()) return known->packet;
 
   const msg::View view = picture_of(sending, type->second);
   msg::Packet picture{sending.offer.topic, packet.envelope, msg::encode(view), {}};
   picture.envelope.type_hash = msg::type_hash(msg::View::kType);
-  made_.push_front({sending.offer.packet, sending.wish, picture});
+  made_.push_front({sending.offer.packet, sending.offer.topic, sending.wish, picture});
   if (made_.size() > kKept) made_.pop_back();
   return picture;
 }

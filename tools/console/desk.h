@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "messages/soundings.h"
@@ -63,6 +64,7 @@ class Desk {
   void offer_relief(const msg::ConsoleRelief& relief, WallTime now);
   void offer_alarms(WallTime now);
   void make_plan(WallTime now);
+  void give(const Offer& offer);
   void offer_newest(const char* topic, Way way, msg::Packet packet, WallTime now);
 
   std::unique_ptr<Source> source_;
@@ -95,6 +97,7 @@ class Desk {
 
   struct Made {  // the last pictures, for several viewers of one size
     std::shared_ptr<const msg::Packet> of;
+    std::string topic;
     PictureWish wish;
     msg::Packet packet;
   };
@@ -110,6 +113,9 @@ inline constexpr const char* kAlarmsTopic = "alarms";
 inline constexpr const char* kReliefTopic = "relief";
 inline constexpr const char* kPlanTopic = "plan";
 inline constexpr const char* kLogTopic = "log";
+
+/// Behind the name of a topic of pictures: the same pictures, upright().
+inline constexpr std::string_view kUpright = ":upright";
 
 /// "bow/view" of "bow/ping", "side/view_main" of "side/ping_main"; "" for a topic that is none of pings.
 std::string view_topic_of(const std::string& ping_topic);

@@ -334,7 +334,8 @@ export function ChartPane() {
           {Object.entries(WORDS).map(([key, words]) => <option key={key} value={key}>{words}</option>)}
         </select>
         <ColourBar colours={depthColours()} label="colours from the least depth to the greatest" />
-        {cells && `${fixed(cells.range[0])} to ${fixed(cells.range[1])}${by === "mean" || by === "shoalest" ? ", shoal is warm" : ""}`}
+        {cells && cells.soundings === 0 && "no soundings yet"}
+        {cells && cells.soundings > 0 && `${fixed(cells.range[0])} to ${fixed(cells.range[1])}${by === "mean" || by === "shoalest" ? ", shoal is warm" : ""}`}
         <button onClick={() => chart.current?.fit()}>all</button>
         <span class="cursor">
           {at

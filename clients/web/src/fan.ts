@@ -49,10 +49,12 @@ function rectangle(width: number, height: number, first: number, last: number, f
 
 export class FanPicture {
   rectangular = false;
+  upright = false; // angles swing with the head's roll: the picture keeps its frame
   private frame: Frame = toScale(0, 0, 1, false);
   private view: View | null = null;
   private cellOfPixel = new Int32Array(0);
   private mapped = "";
+  private swung = { key: "", first: 0, last: 0 }; // farthest angles so far
 
   /** Cells for this canvas: somewhat finer than its pixels, so that the source averages and no pixel skips a cell. */
   get cells(): number {
@@ -67,7 +69,7 @@ export class FanPicture {
     const { width, height } = this.canvas;
     const [beams, cells] = view.level.shape;
     const angles = view.beam_angle_rad.data;
-    const key = [width, height, beams, cells, view.first_range_m, view.cell_m, view.beam_axis, this.rectangular, angles.join()].join(";");
+    const key = [width, height, beams, cells, view.first_range_m, view.cell_m, view.beam_axis, this.rectangular, this.upright, angles.join()].join(";");
     if (key === this.mapped) return;
     this.mapped = key;
     const order = Array.from(angles.keys()).sort((a, b) => angles[a] - angles[b]);
@@ -75,15 +77,17 @@ export class FanPicture {
     const first = sorted[0] - (sorted[1] - sorted[0]) / 2;
     const last = sorted[beams - 1] + (sorted[beams - 1] - sorted[beams - 2]) / 2;
     const far_m = view.first_range_m + cells * view.cell_m;
+    const [least, most] = this.upright ? this.reach(first, last, `${beams} ${far_m} ${this.rectangular}`) : [first, last];
     const inside = (angle: number) => first <= angle && angle <= last;
-    const left = inside(-Math.PI / 2) ? -far_m : Math.min(0, far_m * Math.sin(first));
-    const right = inside(Math.PI / 2) ? far_m : Math.max(0, far_m * Math.sin(last));
-    const near = Math.min(0, far_m * Math.cos(Math.max(Math.abs(first), Math.abs(last))));
-    const far = inside(0) ? far_m : far_m * Math.max(Math.cos(first), Math.cos(last));
+    const shown = (angle: number) => least <= angle && angle <= most;
+    const left = shown(-Math.PI / 2) ? -far_m : Math.min(0, far_m * Math.sin(least));
+    const right = shown(Math.PI / 2) ? far_m : Math.max(0, far_m * Math.sin(most));
+    const near = Math.min(0, far_m * Math.cos(Math.max(Math.abs(least), Math.abs(most))));
+    const far = shown(0) ? far_m : far_m * Math.max(Math.cos(least), Math.cos(most));
     const upward = view.beam_axis === "forward";
     if (this.rectangular) {
       this.radius_px = height;
-      this.frame = rectangle(width, height, first, last, far_m, upward);
+      this.frame = rectangle(width, height, least, most, far_m, upward);
     } else {
       const metre_px = Math.min(width / (right - left), height / (far - near));
       this.radius_px = metre_px * far_m;
@@ -105,6 +109,12 @@ export class FanPicture {
         this.cellOfPixel[y * width + x] = order[low] * cells + cell;
       }
     }
+  }
+
+  private reach(first: number, last: number, key: string): [number, number] {
+    const known = this.swung.key === key ? this.swung : { first, last };
+    this.swung = { key, first: Math.min(known.first, first), last: Math.max(known.last, last) };
+    return [this.swung.first, this.swung.last];
   }
 
   draw(view: View, limits: Limits) {

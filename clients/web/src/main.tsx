@@ -46,6 +46,12 @@ function Bar() {
     <nav>
       <h1>Ensonify</h1>
       <span title={s.launch || s.name}>{s.kind} {s.name.split("/").pop()}</span>
+      {s.items.length > 0 && (
+        <select aria-label="open another run or record" value="" onChange={(e) => send("console_open/1", { id: (e.target as HTMLSelectElement).value })}>
+          <option value="">open ...</option>
+          {s.items.map((item) => <option key={item.id} value={item.id}>{item.text}</option>)}
+        </select>
+      )}
       <span class={`state ${s.state}`}>{s.state}</span>
       <span>t = {simTime_s.value.toFixed(1)} s</span>
       <Controls />
@@ -61,12 +67,6 @@ function Bar() {
         <Select label="colours" of={COLOURS} chosen={colours.value} choose={(name) => (colours.value = name)} />
         <button disabled={!areSizesChanged(shown().length)} onClick={() => resetSizes(shown().length)} title="panes as large as at first">reset sizes</button>
         <button aria-label="keys" title="keys" onClick={listKeys}>?</button>
-        {s.items.length > 0 && (
-          <select aria-label="open another run or record" value="" onChange={(e) => send("console_open/1", { id: (e.target as HTMLSelectElement).value })}>
-            <option value="">open ...</option>
-            {s.items.map((item) => <option key={item.id} value={item.id}>{item.text}</option>)}
-          </select>
-        )}
       </span>
     </nav>
   );

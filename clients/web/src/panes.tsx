@@ -96,6 +96,9 @@ function Scale({ ramp, limits, view, set }: { ramp: string; limits: Limits | nul
 
 const showFinds = keptChoice("detections", true, (value) => typeof value === "boolean");
 const onGround = keptChoice("ground", false, (value) => typeof value === "boolean");
+const wantsUpright = keptChoice("upright", false, (value) => typeof value === "boolean");
+/** A head that looks down and knows how it hangs. */
+const canStand = (view: View) => view.beam_axis === "down" && view.enu_from_head.some((part) => part !== 0);
 const rectangular = keptChoice("rectangular", false, (value) => typeof value === "boolean");
 const showScan = keptChoice("ascan", false, (value) => typeof value === "boolean");
 
@@ -122,9 +125,10 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     const limits = by ?? auto;
     if (!limits || !picture.current) return;
     picture.current.rectangular = rectangular.value;
+    picture.current.upright = wantsUpright.value && canStand(newest);
     picture.current.draw(newest, limits);
     if (kept.current.finds) picture.current.drawFinds();
-    wish(topic, { cells: picture.current.cells, spreading_db: 0, ground: false });
+    wish(topic, { cells: picture.current.cells, spreading_db: 0, ground: false, upright: picture.current.upright });
   };
   const canvas = useCanvas((element) => {
     picture.current ??= new FanPicture(element);
@@ -136,7 +140,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     if (found) kept.current.auto = auto ? { low_db: 0.9 * auto.low_db + 0.1 * found.low_db, high_db: 0.9 * auto.high_db + 0.1 * found.high_db } : found;
   };
   useEffect(
-    () => watch(topic, { cells: 1024, spreading_db: 0, ground: false }, {
+    () => watch(topic, { cells: 1024, spreading_db: 0, ground: false, upright: false }, {
       take(newest) {
         if (newest.added_spreading_db === 0) kept.current.view = newest; // else made before it was known that this is a fan
       },
@@ -149,7 +153,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
     }),
     [],
   );
-  useEffect(redraw, [given, finds, colours.value, rectangular.value]);
+  useEffect(redraw, [given, finds, colours.value, rectangular.value, wantsUpright.value]);
   const place = pointer && picture.current?.placeOf(pointer.x, pointer.y);
   const chooseBeam = (wanted: number) => {
     if (Number.isInteger(wanted) && wanted >= 0 && wanted < view.level.shape[0]) setBeam(wanted);
@@ -167,6 +171,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
       {scan && <AScan view={view} beam={Math.min(beam, view.level.shape[0] - 1)} pointed_m={place && place.beam >= 0 ? place.range_m : null} gain={gainText(view)} />}
       <footer>
         <label><input type="checkbox" checked={scan} onChange={() => (showScan.value = !scan)} /> A-scan</label>
+        {canStand(view) && <label title="the head's roll, by its estimate, is taken out"><input type="checkbox" checked={wantsUpright.value} onChange={() => (wantsUpright.value = !wantsUpright.value)} /> upright</label>}
         <label title="beams from left to right, ranges from the head to the far edge; not to scale"><input type="checkbox" checked={rectangular.value} onChange={() => (rectangular.value = !rectangular.value)} /> rectangular</label>
         {scan && (
           <label>beam <input class="beam" type="number" min={0} max={view.level.shape[0] - 1} value={beam} onInput={(e) => chooseBeam(Number((e.target as HTMLInputElement).value))} /></label>
@@ -180,7 +185,7 @@ function Fan({ topic, first }: { topic: string; first: View }) {
         <span class="cursor">
           {place
             ? `range ${fixed(place.range_m)} m, ${fixed(degrees(place.angle_rad))}°, beam ${place.beam < 0 ? "-" : place.beam}; across ${fixed(place.across_m)} m, ${view.beam_axis === "forward" ? "ahead" : "down"} ${fixed(place.along_m)} m; ${fixed(place.level_db)} dB`
-            : `as the head has it${rectangular.value ? ", not to scale" : ""}; straight rays at the head's sound speed`}
+            : `${picture.current?.upright ? "upright" : "as the head has it"}${rectangular.value ? ", not to scale" : ""}; straight rays at the head's sound speed`}
         </span>
       </footer>
     </>
@@ -203,7 +208,7 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
   useEffect(() => {
     let newest = first;
     for (const line of early.splice(0)) fall.current?.add(line);
-    return watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value }, {
+    return watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value, upright: false }, {
       take(line) {
         newest = line;
         fall.current?.add(line);
@@ -218,7 +223,7 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
     fall.current?.setLimits(given);
     fall.current?.draw();
   }, [given]);
-  useEffect(() => wish(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value }), [onGround.value]);
+  useEffect(() => wish(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: onGround.value, upright: false }), [onGround.value]);
   useEffect(() => {
     fall.current?.repaint();
     fall.current?.draw();
@@ -251,7 +256,7 @@ function Sidescan({ topic, early }: { topic: string; early: View[] }) {
 export function Head({ topic }: { topic: string }) {
   const early = useRef<View[]>([]); // until the pane is there that draws them
   const [first, setFirst] = useState<View | null>(null);
-  useEffect(() => watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: false }, {
+  useEffect(() => watch(topic, { cells: 1024, spreading_db: WATERFALL_DB, ground: false, upright: false }, {
     take(view) {
       early.current.push(view);
       setFirst((known) => known ?? view);

@@ -1,5 +1,5 @@
 // What the processes and the clock say of themselves, and what they publish.
-import { Health, Pace } from "./messages";
+import { ConsoleTopic, Health, Pace } from "./messages";
 import { clock, flow, health, received, state } from "./store";
 
 const seconds = (value: number) => `${value.toFixed(value < 1 ? 3 : 1)} s`;
@@ -36,18 +36,21 @@ function Processes() {
 
 /** All topics, by process; numbers of those that this page receives. */
 function Topics() {
-  const topics = state.value!.topics.slice().sort((a, b) => a.name.localeCompare(b.name));
+  const owner = ({ name, publisher }: ConsoleTopic) => publisher || (name.includes("/") ? processOf(name) : "");
+  const topics = state.value!.topics.map((topic) => ({ ...topic, process: owner(topic) }));
+  // Those that the console makes itself come last.
+  topics.sort((a, b) => Number(!a.process) - Number(!b.process) || a.process.localeCompare(b.process) || a.name.localeCompare(b.name));
   return (
     <table>
       <thead><tr><th>process</th><th>publishes</th><th>type</th><th>messages</th><th>bytes</th><th>not sent</th><th>age</th></tr></thead>
       <tbody>
-        {topics.map(({ name, type, publisher }) => {
+        {topics.map(({ name, type, process }) => {
           const f = flow.value[name];
           const got = received.value[name];
           return (
             <tr key={name}>
-              <td>{publisher || (name.includes("/") ? processOf(name) : "console")}</td><td>{name}</td><td>{type}</td>
-              {f && got ? <><td>{f.rate_hz.toFixed(1)} /s</td><td>{(got.bytesPerS / 1000).toFixed(1)} kB/s</td><td>{f.lost}</td><td>{Math.round(1000 * f.age_s)} ms</td></> : <td colSpan={4} class="note">not watched here</td>}
+              <td>{process || "console"}</td><td>{name}</td><td>{type}</td>
+              {f ? <><td>{f.rate_hz.toFixed(1)} /s</td><td>{((got?.bytesPerS ?? 0) / 1000).toFixed(1)} kB/s</td><td>{f.lost}</td><td>{Math.round(1000 * f.age_s)} ms</td></> : <td colSpan={4} class="note">not watched here</td>}
             </tr>
           );
         })}

@@ -27,7 +27,11 @@ interface Wished {
   cells: number;
   spreading_db: number;
   ground: boolean; // ranges on the ground
+  upright: boolean; // the head's roll taken out
 }
+
+const UPRIGHT = ":upright";
+const headOf = (topic: string) => (topic.endsWith(UPRIGHT) ? topic.slice(0, -UPRIGHT.length) : topic);
 
 const drawers = new Map<string, Drawer>();
 const wishes = new Map<string, Wished>();
@@ -111,7 +115,7 @@ export function viewTopics(): ConsoleTopic[] {
 const plain = (topic: string) => ({ topic, cells: 16, peak: false, spreading_db: 0, absorption_dbpm: 0 });
 
 function watchAll() {
-  const heads = [...wishes].map(([topic, { cells, spreading_db }]) => ({ topic, cells, spreading_db, peak: false, absorption_dbpm: 0 }));
+  const heads = [...wishes].map(([topic, { cells, spreading_db, upright }]) => ({ topic: upright ? topic + UPRIGHT : topic, cells, spreading_db, peak: false, absorption_dbpm: 0 }));
   const ground = [...wishes].filter(([, wished]) => wished.ground).map(([topic]) => topic);
   const small = (state.value?.topics ?? []).filter((topic) => topic.type === "health/1" || topic.type === "clock_health/1");
   const states = small.slice(0, 57 - heads.length).map(({ name }) => plain(name));
@@ -139,7 +143,7 @@ export function watch(topic: string, wished: Wished, drawer: Drawer): () => void
 /** Another size or gain for a pane that is watching. */
 export function wish(topic: string, wished: Wished) {
   const now = wishes.get(topic);
-  if (!now || (now.cells === wished.cells && now.spreading_db === wished.spreading_db && now.ground === wished.ground)) return;
+  if (!now || (now.cells === wished.cells && now.spreading_db === wished.spreading_db && now.ground === wished.ground && now.upright === wished.upright)) return;
   wishes.set(topic, wished);
   watchAll();
 }
@@ -147,7 +151,7 @@ export function wish(topic: string, wished: Wished) {
 function drawDue() {
   frameAsked = false;
   for (const [topic, seq] of due) {
-    drawers.get(topic)?.draw();
+    drawers.get(headOf(topic))?.draw();
     wire?.send("console_drawn/1", { topic, seq });
   }
   due.clear();
@@ -158,7 +162,7 @@ export const received = signal<Record<string, { messages: number; bytes: number;
 let counted: Record<string, { messages: number; bytes: number }> = {};
 
 function count({ topic, bytes }: Frame) {
-  const known = (counted[topic] ??= { messages: 0, bytes: 0 });
+  const known = (counted[headOf(topic)] ??= { messages: 0, bytes: 0 });
   ++known.messages;
   known.bytes += bytes;
 }
@@ -173,7 +177,7 @@ function take(frame: Frame) {
   if (text?.topic === frame.topic) text.take(frame);
   if (frame.type === "view/1") {
     simTime_s.value = (frame.content as View).stamp_ns * 1e-9;
-    drawers.get(frame.topic)?.take(frame.content as View);
+    drawers.get(headOf(frame.topic))?.take(frame.content as View);
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
@@ -213,7 +217,7 @@ function take(frame: Frame) {
     watchAll();
   } else if (frame.type === "console_flow/1") {
     link.value = frame.content as ConsoleFlow;
-    flow.value = Object.fromEntries(link.value.topics.map((topic) => [topic.topic, topic]));
+    flow.value = Object.fromEntries(link.value.topics.map((topic) => [headOf(topic.topic), topic]));
     wire?.send("console_drawn/1", { topic: frame.topic, seq: frame.seq });
     sayReceived();
   } else if (frame.type === "console_answer/1") {
