@@ -22,12 +22,39 @@ MISSION = """[{line: [[-250, 0], [50, 0]]}, {line: [[50, 0], [-250, 0]]},
 class Patch(SystemTest):
     def test_mounting_and_latencies_are_found_within_the_limits(self):
         entered = [word for axis, degrees in ENTERED_DEG.items() for word in ("--arg", f"measured_{axis}_deg={degrees}")]
-        result = self.run_launch(SOURCE / "launch/patch_survey.yaml", "--free", "--in-process", *entered,
+        logged = (f"ensonify: launch/1\nargs: {{ {', '.join(f'measured_{axis}_deg: 0' for axis in ENTERED_DEG)} }}\n"
+                  f"include: [{{ file: {SOURCE}/launch/patch_survey.yaml, args: {{ {', '.join(f'measured_{axis}_deg: $(measured_{axis}_deg)' for axis in ENTERED_DEG)} }} }}]\n"
+                  "processes:\n  log: { run: logger, config: { head: bow, formats: [kmall, all], position_rate_hz: 5 } }\n")
+        result = self.run_launch(logged, "--free", "--in-process", *entered,
                                  "--set", f"mission.steps={MISSION}", "--set", "bow.ping_rate_hz=3", "--set", "bow.quality=0.1", timeout=600)
         self.assertEqual(result.code, 0, result.stderr)
-        reported = self.tool("patch", result.out / "patch.mcap", "--json", timeout=120)
+        found = self.found(result.out / "patch.mcap")
+        self.check(found)
+        for ending in ("kmall", "all"):
+            with self.subTest(ending):
+                self.check_file(self.found(*sorted(result.out.glob(f"*.{ending}"))))
+        for words, said in (([result.out / "patch.mcap"] * 2, "one record at a time"),
+                            ([next(result.out.glob("*.all")), "--estimate", "nav/estimate"], "has no topics")):
+            refused = self.tool("patch", *words, timeout=60)
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn(said, refused.stderr)
+
+    def found(self, *files):
+        reported = self.tool("patch", *files, "--json", timeout=120)
         self.assertEqual(reported.returncode, 0, reported.stderr)
-        found = json.loads(reported.stdout)
+        return json.loads(reported.stdout)
+
+    def check_file(self, found):
+        """Soundings that are placed anew from a file say the same. Its navigation states no errors: intervals are those of the options."""
+        self.assertTrue(found["converged"])
+        for name, (true, limit) in UNKNOWNS.items():
+            with self.subTest(name):
+                value, half = found[name]["value"], found[name]["half_interval_95"]
+                self.assertLess(abs(value - true), limit)
+                self.assertLess(abs(value - true), 2 * half)
+                self.assertLess(half, 2 * limit)
+
+    def check(self, found):
         self.assertTrue(found["converged"])
         self.assertGreater(found["rms_before_m"], 10 * found["rms_after_m"])
         for name, (true, limit) in UNKNOWNS.items():

@@ -19,7 +19,7 @@ Differences::Spread spread_of(const std::vector<float>& values) {
 
 }  // namespace
 
-void Differences::add(const Placed& placed) {
+void Differences::add(const survey_files::Placed& placed) {
   const frames::Vec3 off = placed.place_m - placed.recorded_m;
   down_m_.push_back(static_cast<float>(off.z()));
   level_m_.push_back(static_cast<float>(off.head<2>().norm()));

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "tools/georeference/survey.h"
+#include "components/survey_files/survey.h"
 
 namespace ensonify::georeference_tool {
 
 /// How far soundings lie from where their file has them.
 class Differences {
  public:
-  void add(const Placed& placed);
+  void add(const survey_files::Placed& placed);
 
   /// Of magnitudes, m.
   struct Spread {

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "components/errors/exit_error.h"
-#include "components/formats/recognise.h"
 #include "components/formats/tide.h"
 #include "components/formats/utc.h"
 #include "components/runtime/tool.h"
@@ -16,6 +15,7 @@
 
 using namespace ensonify;
 using namespace ensonify::georeference_tool;
+using namespace ensonify::survey_files;
 
 namespace {
 
@@ -109,10 +109,6 @@ void print(const Options& options, const Summary& summary, const Differences& di
 }
 
 int georeference(const Options& options) {
-  formats::Window window(options.file);
-  const formats::Format format = formats::recognise(window);
-  if (format != formats::Format::kmall && format != formats::Format::all)
-    throw UserError(options.file + ": is neither a .kmall nor a .all file; these are allowed");
   std::optional<formats::Tide> tide;
   if (!options.tide.empty()) tide.emplace(options.tide);
   std::optional<Table> table;
@@ -122,8 +118,7 @@ int georeference(const Options& options) {
     differences.add(placed);
     if (table) table->add(placed);
   };
-  const auto georeference_file = format == formats::Format::all ? georeference_all : georeference_kmall;
-  const Summary summary = georeference_file(options.file, options.trace, take);
+  const Summary summary = place_soundings(options.file, options.trace, take);
   if (interrupted()) return kExitInterrupted;
   if (table) table->close();
   if (summary.soundings == 0) throw UserError(options.file + ": holds no accepted sounding with attitude");

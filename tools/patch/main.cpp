@@ -9,7 +9,9 @@
 
 #include "components/errors/exit_error.h"
 #include "components/runtime/tool.h"
+#include "components/survey_files/survey.h"
 #include "kernels/survey/boresight/adjust.h"
+#include "tools/patch/file_soundings.h"
 #include "tools/patch/record_soundings.h"
 #include "tools/patch/split_lines.h"
 
@@ -101,7 +103,7 @@ std::string as_json(const Finding& f) {
 }
 
 struct Options {
-  std::string record;
+  std::vector<std::string> files;
   Reading reading;
   std::vector<std::size_t> lines;
   std::vector<std::string> solve;
@@ -112,7 +114,8 @@ struct Options {
 };
 
 void add_options(CLI::App& app, Options& o) {
-  app.add_option("RECORD", o.record, "a record with soundings/1 and estimate/1 of the lines")->required();
+  app.add_option("FILE", o.files, "a record with soundings/1 and estimate/1 of the lines, or .kmall and .all files")
+      ->required();
   app.add_option("--soundings", o.reading.soundings, "topic of the soundings (default: the only one)");
   app.add_option("--estimate", o.reading.estimate, "topic of the navigation estimate (default: the only one)");
   app.add_option("--lines", o.lines, "numbers of the lines to use, as printed (default: all)")->delimiter(',');
@@ -173,11 +176,22 @@ boresight::Line with_deviations(const RunLine& run, const RecordInput& input, co
   return line;
 }
 
+RecordInput read(const Options& o) {
+  if (!survey_files::is_survey_file(o.files[0])) {
+    if (o.files.size() > 1)
+      throw UserError(o.files[1] + ": one record at a time; several may be .kmall and .all files");
+    return read_soundings(o.files[0], o.reading);
+  }
+  if (!o.reading.soundings.empty() || !o.reading.estimate.empty())
+    throw UserError(o.files[0] + ": has no topics; --soundings and --estimate are for records");
+  return read_files(o.files, o.reading.most);
+}
+
 int patch(Options& o) {
   choose_unknowns(o);
   o.settings.angle_sd_rad = o.angle_sd_deg * kDegree;
   Finding finding;
-  finding.input = read_soundings(o.record, o.reading);
+  finding.input = read(o);
   finding.lines = split_lines(finding.input.soundings);
   finding.used = used_lines(o, finding.lines.size());
   std::vector<boresight::Line> lines;
@@ -187,7 +201,7 @@ int patch(Options& o) {
   try {
     finding.adjusted = boresight::adjust(lines, o.settings);
   } catch (const std::invalid_argument& error) {
-    throw UserError(fmt::format("{}: {} straight lines of 20 s or more, {} used: {}", o.record, finding.lines.size(),
+    throw UserError(fmt::format("{}: {} straight lines of 20 s or more, {} used: {}", o.files[0], finding.lines.size(),
                                 lines.size(), error.what()));
   }
   fmt::print("{}", o.json ? as_json(finding) : as_text(finding));

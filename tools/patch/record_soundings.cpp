@@ -108,6 +108,13 @@ Stated mean_stated(const std::vector<Stated>& stated, double from_s, double to_s
   return mean;
 }
 
+void thin(RecordInput& input, std::size_t most) {
+  input.accepted = input.soundings.size();
+  const std::size_t step = input.accepted / std::max<std::size_t>(1, most) + 1;
+  for (std::size_t i = 0; i * step < input.accepted; ++i) input.soundings[i] = input.soundings[i * step];
+  input.soundings.resize((input.accepted + step - 1) / step);
+}
+
 RecordInput read_soundings(const std::filesystem::path& file, const Reading& reading) {
   record::RecordReader record(file);
   RecordInput input;
@@ -125,10 +132,7 @@ RecordInput read_soundings(const std::filesystem::path& file, const Reading& rea
   }
   std::erase_if(input.soundings,
                 [&](const Sounding& s) { return !track.covers(s.time_s) || !s.place_enu_m.allFinite(); });
-  input.accepted = input.soundings.size();
-  const std::size_t step = input.accepted / std::max<std::size_t>(1, reading.most) + 1;
-  for (std::size_t i = 0; i * step < input.accepted; ++i) input.soundings[i] = input.soundings[i * step];
-  input.soundings.resize((input.accepted + step - 1) / step);
+  thin(input, reading.most);
   for (Sounding& s : input.soundings) add_motion(s, track);
   return input;
 }

@@ -32,6 +32,9 @@ struct RecordInput {
   std::vector<Stated> stated;                  // by each estimate, in order of time
 };
 
+/// Leaves at most so many soundings, evenly; `accepted` is how many there were.
+void thin(RecordInput& input, std::size_t most);
+
 /// Throws UserError for a file that is no record, and for one without a single topic of soundings/1 or estimate/1 where
 /// none is named; the text lists what there is.
 RecordInput read_soundings(const std::filesystem::path& record, const Reading& reading);

@@ -7,7 +7,7 @@
 
 #include "kernels/base/frames/pose.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 /// An array as it is installed: place and turn, and from there, in its own frame, its phase centres: of a transmitter
 /// those of its port, centre and starboard array, of a receiver one.
@@ -43,4 +43,4 @@ VesselOfAll vessel_of_all(const std::string& file, std::string_view text, std::u
 /// Turned by degrees of roll, pitch and heading.
 frames::Quaternion turn_of(double roll_deg, double pitch_deg, double heading_deg);
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

@@ -1,11 +1,11 @@
-#include "tools/georeference/ping.h"
+#include "components/survey_files/ping.h"
 
 #include <cmath>
 #include <utility>
 
 #include "kernels/survey/georeference/two_way.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 using frames::Vec3;
 
@@ -42,4 +42,4 @@ frames::Quaternion level_from_enu(const frames::Pose& body) {
   return frames::enu_from_body(level).conjugate();
 }
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

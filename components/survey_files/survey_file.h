@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "components/errors/exit_error.h"
-#include "tools/georeference/fixes.h"
-#include "tools/georeference/ping.h"
-#include "tools/georeference/survey.h"
+#include "components/survey_files/fixes.h"
+#include "components/survey_files/ping.h"
+#include "components/survey_files/survey.h"
 
 /// What files of all formats share.
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -40,8 +40,16 @@ inline void add_node(const std::string& file, double depth_m, double speed_mps, 
   if (std::isfinite(depth_m) && (knots.empty() || depth_m > knots.back().depth_m)) knots.push_back(knot);
 }
 
-/// Where a vessel with a place on the map has what lies `away` of it: east and north, true.
-frames::Geodetic position_of(const frames::LocalProjection& projection, const frames::Vec2& reference,
-                             const frames::Vec2& away_true);
+/// The place on the map of what lies `away` of a place there: east and north, true.
+frames::Vec2 on_map(const frames::LocalProjection& projection, const frames::Vec2& reference,
+                    const frames::Vec2& away_true);
 
-}  // namespace ensonify::georeference_tool
+/// Where a placed sounding lies on the map and on the globe, of a vessel whose reference point is at `reference`.
+inline void put_on_map(const frames::LocalProjection& projection, const frames::Pose& body,
+                       const frames::Vec2& reference, const frames::Vec3& place_enu_m, Placed& placed) {
+  const frames::Vec2 place = on_map(projection, reference, (place_enu_m - body.position_enu_m).head<2>());
+  placed.place_enu_m = {place.x(), place.y(), place_enu_m.z()};
+  placed.position = projection.geodetic_of(place);
+}
+
+}  // namespace ensonify::survey_files

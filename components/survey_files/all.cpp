@@ -7,9 +7,9 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/all/reader.h"
 #include "components/runtime/tool.h"
-#include "tools/georeference/survey_file.h"
+#include "components/survey_files/survey_file.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 namespace {
 
 using namespace formats::all;
@@ -95,8 +95,9 @@ class File {
     for (const Moved& one : motion) {
       const double heave_m = one.heave_down_m;
       frames::Pose body;
-      body.position_enu_m.head<2>() = fixes_.enu_at(one.unix_ns);
       body.enu_from_body = frames::enu_from_ned() * turn_of(one.roll_deg, one.pitch_deg, one.heading_deg);
+      const Vec3 origin_enu_m = body.enu_from_body * vessel_->origin_m;  // of fixes
+      body.position_enu_m.head<2>() = fixes_.enu_at(one.unix_ns) - origin_enu_m.head<2>();
       if (vessel_->heave_at_transmitter) {
         const double depth_m = transmitter_m.z() - vessel_->water_line_m + heave_m;  // of the transmitter
         body.position_enu_m.z() = -depth_m - (body.enu_from_body * transmitter_m).z();
@@ -114,6 +115,7 @@ class File {
     const std::int64_t unix_ns = datagram.unix_ns();
     const bool second = vessel_->receivers.size() > 1 && datagram.header.serial == second_serial_;
     const auto body = track_.at(unix_ns);
+    const auto moving = track_.moving_at(unix_ns);
     std::optional<Water> water;
     if (body) water = water_of(datagram, soundings);
     for (std::size_t i = 0; i < soundings.beams.size(); ++i) {
@@ -143,6 +145,9 @@ class File {
         placed.head = second ? 1 : 0;
         placed.sounding = i;
         placed.unix_ns = unix_ns;
+        placed.body = moving;
+        placed.head_enu_m =
+            frames::head_pose(*body, measured.transmitter->mounting(measured.transmit_centre)).position_enu_m;
         take(placed);
       }
     }
@@ -161,8 +166,7 @@ class File {
   Placed placed_of(const Soundings& soundings, const Soundings::Beam& beam, const frames::Pose& body,
                    const Vec3& place_enu_m) const {
     const frames::Quaternion level = level_from_enu(body);
-    const Vec3 origin_enu_m = body.enu_from_body * vessel_->origin_m;  // of its x and y, and of fixes
-    const Vec3 origin_m = level * origin_enu_m;
+    const Vec3 origin_m = level * (body.enu_from_body * vessel_->origin_m);  // of its x and y
     const double depth_m = static_cast<double>(beam.z_m) + static_cast<double>(soundings.transducer_depth_m);
     Placed placed;
     placed.place_m = level * (place_enu_m - body.position_enu_m);
@@ -170,8 +174,7 @@ class File {
                          depth_m + body.position_enu_m.z()};
     placed.depth_m = -place_enu_m.z();
     placed.height_m = std::numeric_limits<double>::quiet_NaN();
-    const Vec3 away_enu_m = place_enu_m - body.position_enu_m - origin_enu_m;
-    placed.position = position_of(fixes_.projection(), body.position_enu_m.head<2>(), away_enu_m.head<2>());
+    put_on_map(fixes_.projection(), body, frames::Vec2(body.position_enu_m.head<2>()), place_enu_m, placed);
     return placed;
   }
 
@@ -187,8 +190,8 @@ class File {
 
 }  // namespace
 
-Summary georeference_all(const std::string& file, const Trace& trace, const TakePlaced& take) {
+Summary place_all(const std::string& file, const Trace& trace, const TakePlaced& take) {
   return File(file, trace).place(take);
 }
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

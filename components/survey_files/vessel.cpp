@@ -1,4 +1,4 @@
-#include "tools/georeference/vessel.h"
+#include "components/survey_files/vessel.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "components/formats/all/installation_text.h"
 #include "components/formats/kmall/installation_text.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 namespace {
 
 using formats::kmall::InstallationGroup;
@@ -192,4 +192,4 @@ VesselOfAll vessel_of_all(const std::string& file, std::string_view text, std::u
   return vessel;
 }
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
+#include "components/survey_files/track.h"
+#include "components/survey_files/vessel.h"
 #include "kernels/water/refraction/profile.h"
-#include "tools/georeference/track.h"
-#include "tools/georeference/vessel.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 /// A sounding as it was measured.
 struct Measured {
@@ -42,4 +42,4 @@ std::optional<frames::Vec3> place_enu_m(const Measured& measured, const Water& w
 /// Axes forward, starboard and down of a vessel with this heading, level.
 frames::Quaternion level_from_enu(const frames::Pose& body);
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

@@ -6,7 +6,7 @@
 
 #include "kernels/base/frames/pose.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 /// Poses by time, in any order at first.
 class Track {
@@ -20,6 +20,8 @@ class Track {
   bool empty() const { return poses_.empty(); }
   /// Interpolated. Nothing before the first and after the last, and within a long gap.
   std::optional<frames::Pose> at(std::int64_t unix_ns) const;
+  /// And how it goes and turns, over 0.2 s: longer than the noise of attitudes, shorter than waves.
+  std::optional<frames::MovingPose> moving_at(std::int64_t unix_ns) const;
 
  private:
   struct Entry {
@@ -29,4 +31,4 @@ class Track {
   std::vector<Entry> poses_;
 };
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

@@ -10,9 +10,9 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/kmall/reader.h"
 #include "components/runtime/tool.h"
-#include "tools/georeference/survey_file.h"
+#include "components/survey_files/survey_file.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 namespace {
 
 using namespace formats::kmall;
@@ -94,6 +94,7 @@ class File {
     const std::size_t transmitter = std::min<std::size_t>(ping.ping.transmitter, vessel_->transmitters.size() - 1),
                       receiver = std::min<std::size_t>(ping.ping.receiver, vessel_->receivers.size() - 1);
     const auto body = track_.at(unix_ns);
+    const auto moving = track_.moving_at(unix_ns);
     const auto profile = profiles_.upper_bound(unix_ns);
     const Knots& in_force = profile == profiles_.begin() ? profile->second : std::prev(profile)->second;
     std::optional<Water> water;
@@ -127,7 +128,11 @@ class File {
         continue;
       }
       ++summary.soundings;
-      take(placed(ping, one, unix_ns, *body, *place));
+      Placed found = placed(ping, one, unix_ns, *body, *place);
+      found.body = moving;
+      found.head_enu_m =
+          frames::head_pose(*body, measured.transmitter->mounting(measured.transmit_centre)).position_enu_m;
+      take(found);
     }
   }
 
@@ -147,7 +152,7 @@ class File {
     const frames::Geodetic stated{ping.pose.latitude_deg, ping.pose.longitude_deg};
     const frames::Vec2 reference =
         Fixes::is_known(stated) ? fixes_.projection().enu_of(stated) : frames::Vec2(body.position_enu_m.head<2>());
-    placed.position = position_of(fixes_.projection(), reference, (place_enu_m - body.position_enu_m).head<2>());
+    put_on_map(fixes_.projection(), body, reference, place_enu_m, placed);
     return placed;
   }
 
@@ -161,8 +166,8 @@ class File {
 
 }  // namespace
 
-Summary georeference_kmall(const std::string& file, const Trace& trace, const TakePlaced& take) {
+Summary place_kmall(const std::string& file, const Trace& trace, const TakePlaced& take) {
   return File(file, trace).place(take);
 }
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

@@ -1,9 +1,9 @@
-#include "tools/georeference/fixes.h"
+#include "components/survey_files/fixes.h"
 
 #include <cmath>
 #include <iterator>
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 bool Fixes::is_known(const frames::Geodetic& place) {
   return std::abs(place.latitude_deg) < 90.0 && std::abs(place.longitude_deg) <= 180.0;
@@ -29,4 +29,4 @@ frames::Vec2 Fixes::enu_at(std::int64_t unix_ns) const {
   return earlier + part * (later - earlier);
 }
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files

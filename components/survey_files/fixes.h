@@ -6,7 +6,7 @@
 
 #include "kernels/base/frames/local_projection.h"
 
-namespace ensonify::georeference_tool {
+namespace ensonify::survey_files {
 
 /// Positions of a vessel by time.
 class Fixes {
@@ -27,4 +27,4 @@ class Fixes {
   mutable std::optional<frames::LocalProjection> projection_;
 };
 
-}  // namespace ensonify::georeference_tool
+}  // namespace ensonify::survey_files
