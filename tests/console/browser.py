@@ -1,13 +1,16 @@
 """The page in a real browser, for tests. Screenshots go to ENSONIFY_SHOTS, where that is set."""
+import io
 import os
 import pathlib
 import shutil
 import unittest
 
 import numpy as np
+from PIL import Image
 
 from console import ConsoleTest
 
+SHOT_SCALE, SHOT_COLOURS = 0.8, 160
 CHROMIUM = shutil.which("chromium")
 try:
     from playwright.sync_api import sync_playwright
@@ -57,5 +60,9 @@ class BrowserTest(ConsoleTest):
         return page.locator(f'.pane:has(canvas[data-topic="{topic}"]) .cursor').inner_text()
 
     def shot(self, page, name):
-        if os.environ.get("ENSONIFY_SHOTS"):
-            page.screenshot(path=pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png")
+        """Small enough for a page: of fewer pixels and colours."""
+        if not os.environ.get("ENSONIFY_SHOTS"):
+            return
+        seen = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+        small = seen.resize((round(SHOT_SCALE * seen.width), round(SHOT_SCALE * seen.height)), Image.Resampling.LANCZOS)
+        small.quantize(SHOT_COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png", optimize=True)

@@ -254,9 +254,11 @@ class Record(ConsoleTest):
         at = self.console(cut, "--free")
         viewer = Viewer(at.view)
         viewer.watch("fish/view", cells=16)
-        viewer.of("view/1")
-        ended = viewer.until(lambda f: f.type == "console_state/1" and f.content["state"] == "ended")
-        self.assertIn("byte", ended.content["message"])
+        seen = {}  # states come before pictures
+        while not {"view/1", "ended"} <= seen.keys():
+            frame = viewer.next()
+            seen[frame.content["state"] if frame.type == "console_state/1" else frame.type] = frame.content
+        self.assertIn("byte", seen["ended"]["message"])
         viewer.close()
 
     def test_mistakes_on_the_command_line(self):
