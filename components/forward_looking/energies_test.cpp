@@ -180,7 +180,7 @@ TEST_CASE("energies are what pings have in the mean over speckle and noise") {
   std::vector<double> mean(expected.size());
   Sea sea(config);
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    sea.config.speckle_seed = static_cast<std::uint64_t>(1000 + seed);
+    sea.config.speckle_seed = 1000 + static_cast<std::uint64_t>(seed);
     const auto report = sea.report();
     const auto amplitude = std::get<0>(report.messages)->amplitude_upa.flat();
     for (std::size_t k = 0; k < mean.size(); ++k)
