@@ -10,7 +10,7 @@ from PIL import Image
 
 from console import ConsoleTest
 
-SHOT_SCALE, SHOT_COLOURS = 0.8, 160
+SHOT_SCALE, SHOT_COLOURS = 0.8, 200
 CHROMIUM = shutil.which("chromium")
 try:
     from playwright.sync_api import sync_playwright
@@ -65,4 +65,5 @@ class BrowserTest(ConsoleTest):
             return
         seen = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
         small = seen.resize((round(SHOT_SCALE * seen.width), round(SHOT_SCALE * seen.height)), Image.Resampling.LANCZOS)
-        small.quantize(SHOT_COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png", optimize=True)
+        few = small.quantize(SHOT_COLOURS, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
+        few.save(pathlib.Path(os.environ["ENSONIFY_SHOTS"]) / f"{name}.png", optimize=True)

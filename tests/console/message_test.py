@@ -63,8 +63,8 @@ class Message(BrowserTest):
     def test_the_tables_have_cost_and_lateness_of_processes_and_rate_and_bytes_of_topics(self):
         page = self.play(voyage(), pace())
         page.get_by_label("topic of the message").select_option("boat/pose")
-        process = lambda: page.locator('tr:has(th:text-is("bow"))').inner_text().split("\t")  # noqa: E731
-        topic = lambda name: page.locator(f'tr:has(td:text-is("{name}"))').inner_text().split("\t")  # noqa: E731
+        process = lambda: page.locator('tr:has(th:text-is("bow"))').inner_text().replace("\u00a0", " ").split("\t")  # noqa: E731
+        topic = lambda name: page.locator(f'tr:has(td:text-is("{name}"))').inner_text().replace("\u00a0", " ").split("\t")  # noqa: E731
         self.wait_for(lambda: page.locator('tr.degraded:has(th:text-is("bow"))').count() and process()[5])
         bow = process()
         self.assertEqual([bow[2], bow[5], bow[6], bow[7]], ["degraded", "25.0 %", "3", "1.5 s"])

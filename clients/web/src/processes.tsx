@@ -2,7 +2,7 @@
 import { ConsoleTopic, Health, Pace } from "./messages";
 import { clock, flow, health, received, state } from "./store";
 
-const seconds = (value: number) => `${value.toFixed(value < 1 ? 3 : 1)} s`;
+const seconds = (value: number) => `${value.toFixed(value < 1 ? 3 : 1)}\u00a0s`;
 const processOf = (topic: string) => topic.split("/")[0];
 
 function Process({ name, told, pace, wall_s }: { name: string; told?: Health; pace?: Pace; wall_s: number }) {
@@ -10,7 +10,7 @@ function Process({ name, told, pace, wall_s }: { name: string; told?: Health; pa
   return (
     <tr class={told?.state}>
       <th scope="row">{name}</th><td>{component}</td><td>{told?.state}</td>
-      <td>{pace?.grants}</td><td>{pace && seconds(pace.cost_s)}</td><td>{pace && wall_s > 0 && `${((100 * pace.cost_s) / wall_s).toFixed(1)} %`}</td>
+      <td>{pace?.grants}</td><td>{pace && seconds(pace.cost_s)}</td><td>{pace && wall_s > 0 && `${((100 * pace.cost_s) / wall_s).toFixed(1)}\u00a0%`}</td>
       <td>{pace?.late_events}</td><td>{pace && seconds(pace.worst_lateness_s)}</td>
       <td>{told?.message} {told?.counters.filter((k) => k.count).map((k) => `${k.name} ${k.count}`).join(", ")}</td>
     </tr>
@@ -50,7 +50,7 @@ function Topics() {
           return (
             <tr key={name}>
               <td>{process || "console"}</td><td>{name}</td><td>{type}</td>
-              {f ? <><td>{f.rate_hz.toFixed(1)} /s</td><td>{((got?.bytesPerS ?? 0) / 1000).toFixed(1)} kB/s</td><td>{f.lost}</td><td>{Math.round(1000 * f.age_s)} ms</td></> : <td colSpan={4} class="note">not watched here</td>}
+              {f ? <><td>{f.rate_hz.toFixed(1)}&nbsp;/s</td><td>{((got?.bytesPerS ?? 0) / 1000).toFixed(1)}&nbsp;kB/s</td><td>{f.lost}</td><td>{Math.round(1000 * f.age_s)}&nbsp;ms</td></> : <td colSpan={4} class="note">not watched here</td>}
             </tr>
           );
         })}
