@@ -104,7 +104,7 @@ void ApertureEchoes::form_mean_squares(std::span<const echo::EchoSet> echoes, st
 
 std::vector<SourceEnergy> ApertureEchoes::energies(const Shot& shot, const Echoed& echoed, const ShotDesign& design,
                                                    const ApertureReception& reception, Memory& memory) const {
-  const auto& [ping, sampling, foreign] = reception;
+  const echo::Sampling& sampling = reception.sampling;
   const std::size_t rows = apertures_.patterns.receive.size(), samples = static_cast<std::size_t>(sampling.count);
   const double noise_upa2 = effects_.noise ? power_of(noise_db(design.pulse)) : 0.0;
   const echo::SampleWindow all{0, sampling.count};
@@ -128,7 +128,8 @@ std::vector<SourceEnergy> ApertureEchoes::energies(const Shot& shot, const Echoe
   };
   add_energies(weighed(echoed.arrivals, echoed.paired, shot.pose(), memory.gain),
                weighed_coherent(shot, echoed, memory.coherent_gain),
-               weighed(foreign, {}, shot.pose(), memory.foreign_gain), design.sampled, sampling, form, energies);
+               weighed(reception.foreign, {}, shot.pose(), memory.foreign_gain), design.sampled, sampling, form,
+               energies);
   return energies;
 }
 

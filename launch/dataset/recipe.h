@@ -124,7 +124,8 @@ struct PairKeys {
                   {"clutter", Without::kClutter},
                   {"both", Without::kBoth}}),
           "things that are not there", self.without);
-    visit("draw", "", computed(any()), "changes as of `--set`, by KEY, each a value or a distribution", self.draw);
+    visit("draw", "", computed(any()),
+          "changes of the second picture as of `--set`, by KEY, each a value or a distribution", self.draw);
   }
   void check(const ConfigReader& from) const;
 };
