@@ -120,6 +120,10 @@ class Page(BrowserTest):
         for upright in (False, True):
             page.get_by_label("upright", exact=True).set_checked(upright)
             page.wait_for_selector(f"text={'upright;' if upright else 'as the head has it'}")
+            # The head's own picture, read as text, is not drawn in its place.
+            page.get_by_label("message", exact=True).check()
+            page.get_by_label("topic of the message").select_option("bow/view")
+            page.wait_for_selector('pre:has-text("beam_axis")')
             page.wait_for_timeout(2500)  # more than half a roll
             for _ in range(4):
                 page.get_by_role("button", name="pause").click()
