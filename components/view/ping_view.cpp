@@ -88,10 +88,11 @@ void set_levels(msg::View& view, std::size_t beams, std::span<const float> power
   view.level_floor_db = floor_db;
   const float steps_per_ln = kDbOfLn / static_cast<float>(view.level_step_db);
   const float first = 1.5F - static_cast<float>(floor_db / view.level_step_db);  // 1 for the floor, and half to round
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    if (powers[i] <= 0.0F) continue;
+  const std::span<std::uint8_t> levels = view.level.flat();
+  for (std::size_t i = 0; i < powers.size(); ++i) {  // without branches: it becomes vector code
     const float value = steps_per_ln * fast_math::log(powers[i]) + first;
-    view.level[i] = static_cast<std::uint8_t>(std::clamp(value, 1.0F, 255.0F));
+    const float level = value < 1.0F ? 1.0F : value > 255.0F ? 255.0F : value;
+    levels[i] = static_cast<std::uint8_t>(powers[i] > 0.0F ? level : 0.0F);
   }
 }
 

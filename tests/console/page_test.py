@@ -13,6 +13,23 @@ from console import SOURCE, fan, health, sides, slope_depth_m, survey, write_rec
 
 SHOWN_S = 40 if os.environ.get("ENSONIFY_SHOTS") else 5  # sim time of a survey that is watched
 
+# Numbers of pixels of the brightest colour of a fan, of each frame of four seconds.
+BRIGHTEST_OF_FRAMES = """() => new Promise((done) => {
+  const canvas = document.querySelector('canvas.picture'), counts = [], end = performance.now() + 4000;
+  const look = () => {
+    let most = 0, count = 0;
+    for (const pixel of new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer)) {
+      const sum = (pixel & 255) + ((pixel >> 8) & 255) + ((pixel >> 16) & 255);
+      if (sum > most) [most, count] = [sum, 0];
+      count += sum === most;
+    }
+    counts.push(count);
+    if (performance.now() < end) requestAnimationFrame(look);
+    else done(counts);
+  };
+  look();
+})"""
+
 
 class Page(BrowserTest):
     def brightest(self, page, topic):
@@ -136,6 +153,12 @@ class Page(BrowserTest):
                 page.get_by_role("button", name="resume").click()
                 page.wait_for_timeout(350)
         self.assertGreater(np.ptp(rolls[True]), 3)  # it did roll
+        # The head's own pictures, of 16 cells where they are read as text, do not come between.
+        page.get_by_label("message", exact=True).check()
+        page.get_by_label("topic of the message").select_option("bow/view")
+        page.wait_for_selector('pre:has-text("beam_axis")')
+        page.wait_for_timeout(500)
+        self.assertLess(max(page.evaluate(BRIGHTEST_OF_FRAMES)), 100)  # pixels; a cell of 16 has 250
         self.assertEqual(self.errors, [])
 
     def test_a_waterfall_has_the_newest_ping_on_top_and_port_to_the_left(self):

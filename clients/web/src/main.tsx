@@ -55,6 +55,8 @@ function Bar() {
       <span class={`state ${s.state}`}>{s.state}</span>
       <span>t = {simTime_s.value.toFixed(1)} s</span>
       <Controls />
+      <button disabled={!areSizesChanged(shown().length)} onClick={() => resetSizes(shown().length)} title="panes as large as at first">reset sizes</button>
+      <button aria-label="keys" title="keys" onClick={listKeys}>?</button>
       {s.message && <span class="note">{s.message}</span>}
       {answer.value && <span class="error" role="alert">{answer.value}</span>}
       {!connected.value && <span class="error" role="alert">no connection: {trouble.value}</span>}
@@ -65,8 +67,6 @@ function Bar() {
         <Select label="layout" of={LAYOUT_NAMES} chosen={layout.value} choose={choose} />
         <Select label="light" of={LIGHTS} chosen={light.value} choose={(name) => (light.value = name)} />
         <Select label="colours" of={COLOURS} chosen={colours.value} choose={(name) => (colours.value = name)} />
-        <button disabled={!areSizesChanged(shown().length)} onClick={() => resetSizes(shown().length)} title="panes as large as at first">reset sizes</button>
-        <button aria-label="keys" title="keys" onClick={listKeys}>?</button>
       </span>
     </nav>
   );

@@ -32,6 +32,8 @@ interface Wished {
 
 const UPRIGHT = ":upright";
 const headOf = (topic: string) => (topic.endsWith(UPRIGHT) ? topic.slice(0, -UPRIGHT.length) : topic);
+/** Who draws pictures of this topic. Not the head's own in the place of upright ones: somebody may read them as text. */
+const drawerOf = (topic: string) => (wishes.get(headOf(topic))?.upright === topic.endsWith(UPRIGHT) ? drawers.get(headOf(topic)) : undefined);
 
 const drawers = new Map<string, Drawer>();
 const wishes = new Map<string, Wished>();
@@ -151,7 +153,7 @@ export function wish(topic: string, wished: Wished) {
 function drawDue() {
   frameAsked = false;
   for (const [topic, seq] of due) {
-    drawers.get(headOf(topic))?.draw();
+    drawerOf(topic)?.draw();
     wire?.send("console_drawn/1", { topic, seq });
   }
   due.clear();
@@ -177,7 +179,7 @@ function take(frame: Frame) {
   if (text?.topic === frame.topic) text.take(frame);
   if (frame.type === "view/1") {
     simTime_s.value = (frame.content as View).stamp_ns * 1e-9;
-    drawers.get(headOf(frame.topic))?.take(frame.content as View);
+    drawerOf(frame.topic)?.take(frame.content as View);
     due.set(frame.topic, frame.seq);
     if (!frameAsked) requestAnimationFrame(drawDue);
     frameAsked = true;
