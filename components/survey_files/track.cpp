@@ -6,8 +6,8 @@ namespace ensonify::survey_files {
 
 void Track::sort() {
   std::ranges::stable_sort(poses_, {}, &Entry::unix_ns);
-  const auto again = std::ranges::unique(poses_, {}, &Entry::unix_ns);
-  poses_.erase(again.begin(), again.end());
+  const auto again = [](const Entry& a, const Entry& b) { return a.unix_ns == b.unix_ns; };
+  poses_.erase(std::unique(poses_.begin(), poses_.end(), again), poses_.end());
 }
 
 std::optional<frames::Pose> Track::at(std::int64_t unix_ns) const {
