@@ -1,4 +1,4 @@
-// Pairs of pings, with a thing and without: bit for bit the same wherever nothing of it is heard or hidden.
+// Pairs of pings, with a thing and without: bit for bit the same but for the samples of its echo and its shadow.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>

@@ -6,7 +6,6 @@
 
 #include "components/errors/exit_error.h"
 #include "components/formats/all/reader.h"
-#include "components/runtime/tool.h"
 #include "components/survey_files/survey_file.h"
 
 namespace ensonify::survey_files {
@@ -22,7 +21,8 @@ class File {
  public:
   File(const std::string& file, const Trace& trace) : file_(file), trace_(trace) {
     std::vector<Moved> active, passive;
-    each([&](const Datagram& datagram) {
+    Fixes of_others;  // systems than the active one
+    each_datagram<Reader>(file_, [&](const Datagram& datagram) {
       if (const auto* text = std::get_if<Installation>(&datagram.body); text != nullptr && !vessel_) {
         vessel_ = vessel_of_all(file_, text->text, datagram.header.model);
         second_serial_ = text->secondary_serial;
@@ -30,7 +30,8 @@ class File {
       if (const auto* profile = std::get_if<SoundSpeedProfile>(&datagram.body))
         profiles_[datagram.unix_ns()] = knots_of(*profile);
       if (const auto* position = std::get_if<Position>(&datagram.body))
-        fixes_.add(datagram.unix_ns(), {position->latitude_deg.value(), position->longitude_deg.value()});
+        ((position->descriptor & 0x80U) != 0 ? fixes_ : of_others)
+            .add(datagram.unix_ns(), {position->latitude_deg.value(), position->longitude_deg.value()});
       if (const auto* attitude = std::get_if<Attitude>(&datagram.body))
         add(*attitude, datagram.unix_ns(), is_active(*attitude) ? active : passive);
     });
@@ -38,13 +39,14 @@ class File {
     if (profiles_.empty()) throw UserError(file_ + ": holds no sound speed profile (U)");
     if (active.empty()) active = std::move(passive);
     if (active.empty()) throw UserError(file_ + ": holds no attitude (A)");
+    if (fixes_.empty()) fixes_ = std::move(of_others);
     if (fixes_.empty()) throw UserError(file_ + ": holds no position (P)");
     make_track(active);
   }
 
   Summary place(const TakePlaced& take) {
     Summary summary;
-    summary.faults = each([&](const Datagram& datagram) {
+    summary.faults = each_datagram<Reader>(file_, [&](const Datagram& datagram) {
       const Key key{datagram.header.counter, datagram.header.serial};
       if (const auto* raw = std::get_if<RawRangeAngle>(&datagram.body)) raw_[key] = *raw;
       const auto* soundings = std::get_if<Soundings>(&datagram.body);
@@ -62,14 +64,6 @@ class File {
  private:
   using Key = std::pair<std::uint16_t, std::uint16_t>;  // counter, serial
   static constexpr std::size_t kMostWaiting = 16;       // pings whose soundings have not come
-
-  template <class See>
-  std::uint64_t each(const See& see) {
-    formats::Window window(file_);
-    Reader reader(window);
-    while (const auto datagram = interrupted() ? std::nullopt : reader.next()) see(*datagram);
-    return reader.faults().count();
-  }
 
   /// Roll, pitch and heave of it count.
   static bool is_active(const Attitude& attitude) { return (attitude.descriptor & 0x0EU) == 0; }
@@ -126,7 +120,8 @@ class File {
       }
       const RawRangeAngle::Sector& sector = raw.sectors[beam.sector];
       const std::size_t arrays = vessel_->transmitters[0].phase_centre_m.size();
-      const Measured measured{.transmit_ns = unix_ns + std::llround(1e9 * static_cast<double>(sector.delay_s)),
+      const Measured measured{.ping_ns = unix_ns,
+                              .delay_s = static_cast<double>(sector.delay_s),
                               .two_way_s = static_cast<double>(beam.travel_time_s),
                               .tilt_rad = kDegree * sector.tilt_deg.value(),
                               .angle_rad = -kDegree * beam.angle_deg.value(),

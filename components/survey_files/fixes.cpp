@@ -6,7 +6,8 @@
 namespace ensonify::survey_files {
 
 bool Fixes::is_known(const frames::Geodetic& place) {
-  return std::abs(place.latitude_deg) < 90.0 && std::abs(place.longitude_deg) <= 180.0;
+  const bool on_globe = std::abs(place.latitude_deg) < 90.0 && std::abs(place.longitude_deg) <= 180.0;
+  return on_globe && !(place.latitude_deg == 0.0 && place.longitude_deg == 0.0);
 }
 
 void Fixes::add(std::int64_t unix_ns, const frames::Geodetic& place) {
@@ -14,7 +15,11 @@ void Fixes::add(std::int64_t unix_ns, const frames::Geodetic& place) {
 }
 
 const frames::LocalProjection& Fixes::projection() const {
-  if (!projection_) projection_.emplace(fixes_.begin()->second);
+  if (!projection_) {
+    frames::Geodetic origin = fixes_.begin()->second;
+    if (origin.longitude_deg == 180.0) origin.longitude_deg = -180.0;
+    projection_.emplace(origin);
+  }
   return *projection_;
 }
 

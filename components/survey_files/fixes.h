@@ -11,7 +11,7 @@ namespace ensonify::survey_files {
 /// Positions of a vessel by time.
 class Fixes {
  public:
-  /// What is no place on the globe is left out.
+  /// What is no place on the globe is left out, and 0, 0, which files have before the first fix.
   void add(std::int64_t unix_ns, const frames::Geodetic& place);
   bool empty() const { return fixes_.empty(); }
 

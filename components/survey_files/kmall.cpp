@@ -9,7 +9,6 @@
 
 #include "components/errors/exit_error.h"
 #include "components/formats/kmall/reader.h"
-#include "components/runtime/tool.h"
 #include "components/survey_files/survey_file.h"
 
 namespace ensonify::survey_files {
@@ -29,14 +28,15 @@ class File {
  public:
   File(const std::string& file, const Trace& trace) : file_(file), trace_(trace) {
     std::vector<Moved> motion;
-    Fixes of_pings;
-    each([&](const Datagram& datagram) {
+    Fixes of_others, of_pings;  // systems than the active one
+    each_datagram<Reader>(file_, [&](const Datagram& datagram) {
       if (const auto* text = std::get_if<Installation>(&datagram.body); text != nullptr && !vessel_)
         vessel_ = vessel_of_kmall(file_, text->text);
       if (const auto* profile = std::get_if<formats::kmall::SoundSpeedProfile>(&datagram.body))
         profiles_[datagram.unix_ns()] = knots_of(*profile);
       if (const auto* position = std::get_if<Position>(&datagram.body))
-        fixes_.add(datagram.unix_ns(), {position->latitude_deg, position->longitude_deg});
+        ((position->sensor.status & 1U) != 0 ? fixes_ : of_others)
+            .add(datagram.unix_ns(), {position->latitude_deg, position->longitude_deg});
       if (const auto* ping = std::get_if<Soundings>(&datagram.body))
         of_pings.add(datagram.unix_ns(), {ping->pose.latitude_deg, ping->pose.longitude_deg});
       if (const auto* samples = std::get_if<Motion>(&datagram.body);
@@ -46,6 +46,7 @@ class File {
     if (!vessel_) throw UserError(file_ + ": holds no installation (#IIP)");
     if (profiles_.empty()) throw UserError(file_ + ": holds no sound speed profile (#SVP)");
     if (motion.empty()) throw UserError(file_ + ": holds no attitude (#SKM)");
+    if (fixes_.empty()) fixes_ = std::move(of_others);
     if (fixes_.empty()) fixes_ = std::move(of_pings);
     if (fixes_.empty()) throw UserError(file_ + ": holds no position (#SPO)");
     make_track(motion);
@@ -53,21 +54,13 @@ class File {
 
   Summary place(const TakePlaced& take) {
     Summary summary;
-    summary.faults = each([&](const Datagram& datagram) {
+    summary.faults = each_datagram<Reader>(file_, [&](const Datagram& datagram) {
       if (const auto* ping = std::get_if<Soundings>(&datagram.body)) place(*ping, datagram.unix_ns(), take, summary);
     });
     return summary;
   }
 
  private:
-  template <class See>
-  std::uint64_t each(const See& see) {
-    formats::Window window(file_);
-    Reader reader(window);
-    while (const auto datagram = interrupted() ? std::nullopt : reader.next()) see(*datagram);
-    return reader.faults().count();
-  }
-
   Knots knots_of(const formats::kmall::SoundSpeedProfile& profile) const {
     Knots knots;
     for (const auto& node : profile.nodes) add_node(file_, node.depth_m, node.sound_speed_mps, knots);
@@ -111,7 +104,8 @@ class File {
       }
       const Soundings::Sector& sector = ping.sectors[one.sector];
       const Measured measured{
-          .transmit_ns = unix_ns + std::llround(1e9 * static_cast<double>(sector.delay_s)),
+          .ping_ns = unix_ns,
+          .delay_s = static_cast<double>(sector.delay_s),
           .two_way_s = static_cast<double>(one.travel_time_s) + static_cast<double>(one.travel_time_correction_s),
           .tilt_rad = kDegree * static_cast<double>(sector.tilt_deg),
           .angle_rad = -kDegree * (static_cast<double>(one.angle_deg) + static_cast<double>(one.angle_correction_deg)),

@@ -24,8 +24,12 @@ Water water_of_profile(double transducer_depth_m, const std::vector<refraction::
 }
 
 std::optional<Vec3> place_enu_m(const Measured& measured, const Water& water, const Track& track) {
-  const auto at_transmit = track.at(measured.transmit_ns);
-  const auto at_receive = track.at(measured.transmit_ns + std::llround(1e9 * measured.two_way_s));
+  constexpr double kLongest_s = 100.0, kMostAlong = 0.9;
+  const bool times = std::abs(measured.delay_s) < kLongest_s && std::abs(measured.two_way_s) < kLongest_s;  // not NaN
+  if (!times || !std::isfinite(measured.tilt_rad + measured.angle_rad)) return std::nullopt;
+  const std::int64_t transmit_ns = measured.ping_ns + std::llround(1e9 * measured.delay_s);
+  const auto at_transmit = track.at(transmit_ns);
+  const auto at_receive = track.at(transmit_ns + std::llround(1e9 * measured.two_way_s));
   if (!at_transmit || !at_receive) return std::nullopt;
   const georeference::MeasuredEcho echo{
       .at_transmit = frames::head_pose(*at_transmit, measured.transmitter->mounting(measured.transmit_centre)),
@@ -34,6 +38,9 @@ std::optional<Vec3> place_enu_m(const Measured& measured, const Water& water, co
       .sin_receive = std::sin(measured.angle_rad),
       .face_speed_mps = water.face_speed_mps,
       .two_way_s = measured.two_way_s};
+  const double along =
+      (echo.at_transmit.enu_from_head * Vec3::UnitX()).dot(echo.at_receive.enu_from_head * Vec3::UnitY());
+  if (!(std::abs(along) < kMostAlong)) return std::nullopt;
   return georeference::sounding_enu_m(echo, water.profile);
 }
 

@@ -12,7 +12,8 @@ namespace ensonify::survey_files {
 
 /// A sounding as it was measured.
 struct Measured {
-  std::int64_t transmit_ns = 0;  // UTC since 1970, of its sector
+  std::int64_t ping_ns = 0;  // UTC since 1970
+  double delay_s = 0.0;      // of its sector's transmission
   double two_way_s = 0.0;
   double tilt_rad = 0.0;   // forward, in the transmitter's own frame
   double angle_rad = 0.0;  // to starboard, in the receiver's own frame
@@ -36,7 +37,8 @@ Water water_below(double transducer_depth_m, double face_speed_mps, const std::v
 Water water_of_profile(double transducer_depth_m, const std::vector<refraction::Knot>& profile);
 
 /// Place of a sounding in the world: heights count from the water line. Both cones are intersected, each with its own
-/// array's mounting and attitude at its own time. Nothing where the track has no pose at transmission or reception.
+/// array's mounting and attitude at its own time. Nothing where the track has no pose at transmission or reception, and
+/// where times or angles are none or the arrays lie along each other then.
 std::optional<frames::Vec3> place_enu_m(const Measured& measured, const Water& water, const Track& track);
 
 /// Axes forward, starboard and down of a vessel with this heading, level.

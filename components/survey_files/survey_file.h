@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "components/errors/exit_error.h"
+#include "components/formats/window.h"
+#include "components/runtime/tool.h"
 #include "components/survey_files/fixes.h"
 #include "components/survey_files/ping.h"
 #include "components/survey_files/survey.h"
@@ -24,6 +26,15 @@ struct Moved {
 
   bool finite() const { return std::isfinite(roll_deg + pitch_deg + heading_deg + heave_down_m); }
 };
+
+/// Shows each datagram of a file. How many faults were passed over.
+template <class Reader, class See>
+std::uint64_t each_datagram(const std::string& file, const See& see) {
+  formats::Window window(file);
+  Reader reader(window);
+  while (const auto datagram = interrupted() ? std::nullopt : reader.next()) see(*datagram);
+  return reader.faults().count();
+}
 
 /// A sound speed that a file states. Throws UserError where it is none of water.
 inline double checked_speed(const std::string& file, double speed_mps, const std::string& where) {

@@ -1,9 +1,17 @@
 // What installations say, and tracks with gaps.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "components/errors/exit_error.h"
+#include "components/formats/all/reader.h"
+#include "components/formats/all/writer.h"
+#include "components/formats/kmall/reader.h"
+#include "components/formats/kmall/writer.h"
+#include "components/formats/testing/sample.h"
+#include "components/survey_files/fixes.h"
 #include "components/survey_files/ping.h"
+#include "components/survey_files/survey.h"
 
 using namespace ensonify;
 using namespace ensonify::survey_files;
@@ -16,6 +24,41 @@ const std::string kRest = ",ATTI_1:X=0;Y=0;Z=0;R=0.5;P=0;H=0;U=ACTIVE,ATTI_2:U=N
 const std::string kHead =
     "SYSTEM:EM 2040P,TRAI_HD1:N=1;X=1.1;Y=0.02;Z=0.51;R=0;P=0;H=180;IPX=0.002;IPY=-0.1;IPZ=0;ICX=0.002;ICY=0;"
     "ICZ=-0.006;ISX=0.002;ISY=0.1;ISZ=0;IRX=0.204;IRY=0;IRZ=-0.03";
+
+/// The sample's datagrams, its attitude drawn out so that it covers the pings.
+formats::Bytes kmall_bytes() {
+  const formats::Bytes whole = formats::sample::kmall_file().bytes;
+  formats::Window window{formats::ByteView(whole)};
+  formats::kmall::Reader reader(window);
+  formats::Bytes bytes;
+  while (auto datagram = reader.next()) {
+    if (auto* text = std::get_if<formats::kmall::Installation>(&datagram->body)) text->text = kHead + kRest;
+    if (auto* motion = std::get_if<formats::kmall::Motion>(&datagram->body)) {
+      std::uint32_t half_seconds = 0;
+      for (auto& sample : motion->samples) {
+        sample.time_s += half_seconds / 2;
+        sample.time_ns = half_seconds++ % 2 * 500'000'000;
+      }
+    }
+    append(bytes, *datagram);
+  }
+  return bytes;
+}
+
+formats::Bytes all_bytes() {
+  const formats::Bytes whole = formats::sample::all_file().bytes;
+  formats::Window window{formats::ByteView(whole)};
+  formats::all::Reader reader(window);
+  formats::Bytes bytes;
+  while (auto datagram = reader.next()) {
+    if (auto* attitude = std::get_if<formats::all::Attitude>(&datagram->body)) {
+      for (std::size_t i = 0; i < attitude->entries.size(); ++i)
+        attitude->entries[i].after_ms = static_cast<std::uint16_t>(900 * i);
+    }
+    append(bytes, *datagram);
+  }
+  return bytes;
+}
 
 }  // namespace
 
@@ -83,4 +126,46 @@ TEST_CASE("water is traced from the face's own speed, or as the profile stands")
   CHECK(face.profile.speed_mps(1.5) == 1500.0);
   CHECK(face.profile.speed_mps(10.0) == 1480.0);
   CHECK(water_of_profile(1.0, profile).face_speed_mps == 1495.0);
+}
+
+TEST_CASE("fixes before the first one are no place, and one at the antimeridian is") {
+  Fixes fixes;
+  fixes.add(1, {0.0, 0.0});
+  fixes.add(2, {200.0, 200.0});
+  CHECK(fixes.empty());
+  fixes.add(3, {10.0, 180.0});
+  fixes.add(5, {10.0, -179.9999});
+  CHECK_THAT(fixes.enu_at(4).x(), WithinAbs(0.5 * 1e-4 * 111'320 * std::cos(10 * M_PI / 180), 0.1));
+}
+
+TEST_CASE("a damaged file has soundings or an error, and nothing else") {
+  using Place = Summary (*)(const std::string&, const Trace&, const TakePlaced&);
+  const std::vector<std::pair<formats::Bytes, Place>> files{{kmall_bytes(), place_kmall}, {all_bytes(), place_all}};
+  for (const auto& [whole, place] : files) {
+    int placed_whole = 0, refused = 0, placed_damaged = 0;
+    const formats::sample::TemporaryFile sound(whole);
+    place(sound.path().string(), {}, [&](const Placed&) { ++placed_whole; });
+    REQUIRE(placed_whole > 1);
+    for (std::size_t at = 0; at < 3 * whole.size(); at += 13) {
+      constexpr std::byte kBad[] = {std::byte{0xFF}, std::byte{0x7F}, std::byte{0}};  // a NaN or a limit, much, nothing
+      formats::Bytes bytes = whole;
+      const std::size_t begin = at % bytes.size();
+      std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+                bytes.begin() + static_cast<std::ptrdiff_t>(std::min(begin + 4, bytes.size())),
+                kBad[at / bytes.size()]);
+      const formats::sample::TemporaryFile file(bytes);
+      bool finite = true;
+      try {
+        place(file.path().string(), {}, [&](const Placed& placed) {
+          finite = finite && placed.place_m.allFinite();
+          ++placed_damaged;
+        });
+      } catch (const UserError&) {
+        ++refused;
+      }
+      CHECK(finite);
+    }
+    CHECK(refused > 0);
+    CHECK(placed_damaged > 10 * placed_whole);
+  }
 }

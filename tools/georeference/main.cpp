@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -112,6 +113,9 @@ int georeference(const Options& options) {
   std::optional<formats::Tide> tide;
   if (!options.tide.empty()) tide.emplace(options.tide);
   std::optional<Table> table;
+  std::error_code none;
+  if (std::filesystem::equivalent(options.out, options.file, none))
+    throw UserError("--out " + options.out + ": is the file to be read; allowed: another");
   if (!options.out.empty()) table.emplace(options.out, tide);
   Differences differences;
   const TakePlaced take = [&](const Placed& placed) {

@@ -5,14 +5,14 @@ import { clock, flow, health, received, state } from "./store";
 const seconds = (value: number) => `${value.toFixed(value < 1 ? 3 : 1)}\u00a0s`;
 const processOf = (topic: string) => topic.split("/")[0];
 
-function Process({ name, told, pace, wall_s }: { name: string; told?: Health; pace?: Pace; wall_s: number }) {
+function Process({ name, report, pace, wall_s }: { name: string; report?: Health; pace?: Pace; wall_s: number }) {
   const component = state.value!.topics.find((topic) => topic.publisher === name && topic.component)?.component;
   return (
-    <tr class={told?.state}>
-      <th scope="row">{name}</th><td>{component}</td><td>{told?.state}</td>
+    <tr class={report?.state}>
+      <th scope="row">{name}</th><td>{component}</td><td>{report?.state}</td>
       <td>{pace?.grants}</td><td>{pace && seconds(pace.cost_s)}</td><td>{pace && wall_s > 0 && `${((100 * pace.cost_s) / wall_s).toFixed(1)}\u00a0%`}</td>
       <td>{pace?.late_events}</td><td>{pace && seconds(pace.worst_lateness_s)}</td>
-      <td>{told?.message} {told?.counters.filter((k) => k.count).map((k) => `${k.name} ${k.count}`).join(", ")}</td>
+      <td>{report?.message} {report?.counters.filter((k) => k.count).map((k) => `${k.name} ${k.count}`).join(", ")}</td>
     </tr>
   );
 }
@@ -29,7 +29,7 @@ function Processes() {
           <th title="cost as a share of wall time">share</th><th title="grants that it finished last, the run being late">late</th><th title="largest lateness charged to it">worst</th><th>why, counts</th>
         </tr>
       </thead>
-      <tbody>{names.map((name) => <Process key={name} name={name} told={health.value[name]} pace={paces.get(name)} wall_s={c?.wall_s ?? 0} />)}</tbody>
+      <tbody>{names.map((name) => <Process key={name} name={name} report={health.value[name]} pace={paces.get(name)} wall_s={c?.wall_s ?? 0} />)}</tbody>
     </table>
   );
 }
