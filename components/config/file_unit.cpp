@@ -32,7 +32,8 @@ constexpr NamedUnit kUnits[] = {
 constexpr std::string_view kSiUnits[] = {
     "",    "m",         "s",   "Hz",   "dB",  "m/s",    "m/s^2",         "rad",           "rad/s",       "uPa",
     "psu", "degC",      "kg",  "N",    "N m", "kg/m^3", "kg m^2",        "m^2",           "m^3",         "MB",
-    "1/s", "m/sqrt(s)", "N/m", "dB/m", "1/m", "1/km^2", "rad/s/sqrt(s)", "m/s^2/sqrt(s)", "m/s/sqrt(s)", "m/s/sqrt(m)"};
+    "1/s", "m/sqrt(s)", "N/m", "dB/m", "1/m", "1/km^2", "rad/s/sqrt(s)", "m/s^2/sqrt(s)", "m/s/sqrt(s)", "m/s/sqrt(m)",
+    "MB/s"};
 
 }  // namespace
 

@@ -16,12 +16,47 @@ namespace ensonify {
 
 class ConfigReader;
 
-/// Formats that a logger writes, in the order given.
-struct LoggedFormats : std::vector<std::string> {
+/// Formats in the order given.
+struct FormatList : std::vector<std::string> {
   using std::vector<std::string>::vector;
-  void read(ConfigReader& from, const char* key);
   ConfigNode in_file() const;
+  bool has(const std::string& format) const;
+};
+
+/// Those that a logger writes.
+struct LoggedFormats : FormatList {
+  using FormatList::FormatList;
+  void read(ConfigReader& from, const char* key);
   static std::string schema();
+};
+
+/// Those that it sends to a receiver.
+struct SentFormats : FormatList {
+  using FormatList::FormatList;
+  void read(ConfigReader& from, const char* key);
+  static std::string schema();
+};
+
+/// Somebody who gets datagrams as they are logged.
+struct ReceiverParameters {
+  std::string to;
+  SentFormats formats{"all"};
+  double rate_mb_s = 20.0;
+  std::string interface = "localhost";
+  int ttl = 1;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("to", "", must(not_empty()), "IPv4 address, or that of a group, and UDP port as 127.0.0.1:16101", self.to);
+    visit("formats", "", any(),
+          "list of all, kmall, wcd and kmwcd, of those that are logged; of a water column beside its all or kmall only "
+          "what these do not have",
+          self.formats);
+    visit("rate_mb_s", "MB/s", in(0.01, 1000),
+          "rate at which a burst leaves; what would leave more than 2 s late is lost", self.rate_mb_s);
+    visit("interface", "", any(), "address of the interface by which a group is sent to", self.interface);
+    visit("ttl", "", in(0, 255), "routers that a group's datagrams pass, and one: 1 stays in the network", self.ttl);
+  }
+  void check(const ConfigReader& from) const;
 };
 
 /// Where files say that they are simulated: in texts alone, or in the fields for simulators too.
@@ -41,6 +76,7 @@ struct LoggerParameters {
   double rotate_s = 0.0;
   double rotate_mb = 0.0;
   bool rotate_lines = false;
+  std::vector<ReceiverParameters> send;
 
   static void parameters(auto& self, auto&& visit) {
     visit("formats", "", any(),
@@ -73,6 +109,7 @@ struct LoggerParameters {
     visit("rotate_s", "s", in(0, 86'400), "time after which the next files begin; 0: never", self.rotate_s);
     visit("rotate_mb", "MB", in(0, 1e6), "size of a file after which the next ones begin; 0: never", self.rotate_mb);
     visit("rotate_lines", "", any(), "the next files begin with each of the mission's lines", self.rotate_lines);
+    visit("send", "receivers of live streams, which get over UDP what the files get", self.send);
   }
 };
 

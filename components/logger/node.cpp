@@ -10,6 +10,7 @@
 #include "components/logger/kmall/kmall_format.h"
 #include "components/logger/xtf/xtf_format.h"
 #include "components/runtime/declared.h"
+#include "components/runtime/log.h"
 #include "messages/terrain.h"
 
 namespace ensonify {
@@ -94,7 +95,31 @@ logger::SurveyLog& LoggerNode::log() {
     else if (format.starts_with("km")) formats.push_back(std::make_unique<logger::KmallFormat>(config_, mark, part));
     else formats.push_back(std::make_unique<logger::AllFormat>(config_, mark, part));
   }
-  return log_.emplace(config_, std::move(formats), files_);
+  logger::Files* files = &files_;
+  if (!config_.send.empty()) {
+    try {
+      files = &sent_.emplace(config_, files_);
+    } catch (const UserError& error) {
+      throw UserError(fmt::format("{}: {}", ports_.process(), error.what()));
+    }
+  }
+  return log_.emplace(config_, std::move(formats), *files);
+}
+
+/// Of all receivers together. Only where something is lost, refused or late do counts follow from wall time.
+void LoggerNode::count_sent() {
+  std::map<std::string, std::int64_t> now;
+  for (const logger::SentFiles::Counts& one : sent_->counts()) {
+    now["stream_datagrams"] += one.datagrams;
+    now["stream_bytes"] += one.bytes;
+    now["stream_lost"] += one.sent.lost;
+    now["stream_refused"] += one.sent.refused;
+    now["stream_late"] += one.sent.late;
+  }
+  for (const auto& [what, count] : now) {
+    if (count > sent_counts_[what]) ports_.count(what, count - sent_counts_[what]);
+  }
+  sent_counts_ = std::move(now);
 }
 
 SimTime LoggerNode::step(SimTime now) {
@@ -106,11 +131,18 @@ SimTime LoggerNode::step(SimTime now) {
   if (world_) log.write(*world_);
   if (log.pings_left_out() > counted_) ports_.count("pings_left_out", log.pings_left_out() - counted_);
   counted_ = log.pings_left_out();
+  if (sent_) count_sent();
   return due_.next();
 }
 
 void LoggerNode::finish_run() {
   if (world_ && log_) log_->close(*world_);
+  if (!sent_) return;
+  sent_->finish();
+  for (const logger::SentFiles::Counts& one : sent_->counts()) {
+    log::event(ports_, "streamed", "to={} datagrams={} bytes={} lost={} refused={} late={} latest_s={:.3f}", one.to,
+               one.sent.datagrams, one.sent.bytes, one.sent.lost, one.sent.refused, one.sent.late, one.sent.latest_s);
+  }
 }
 
 }  // namespace ensonify

@@ -82,6 +82,7 @@ ReplayLaunch replay_launch(const RecordedRun& run, const Wanted& wanted, const s
   if (!wanted.sidescan && logger.config.find("sidescan") != nullptr)
     logger.config.set("sidescan", ConfigNode::text(""));
   logger.config.set("folder", ConfigNode::text(folder));
+  if (logger.config.find("send") != nullptr) logger.config.set("send", list_of({}));  // it sent while it was live
 
   ConfigNode processes = ConfigNode::map();
   for (const std::string& process : run.publishers()) processes.set(process, replay(run, process));
