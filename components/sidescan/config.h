@@ -45,7 +45,7 @@ struct SidescanChannel {
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("name", "", must(any()), "name of the channel, whose ports are ping_NAME and bottom_NAME", self.name);
-    visit("frequency_hz", "Hz", must(in(50e3, 1e6)), "centre frequency", self.frequency_hz);
+    visit("frequency_hz", "Hz", must(in(50e3, 2e6)), "centre frequency", self.frequency_hz);
     visit("horizontal_beamwidth_deg", "deg", in(0.05, 10),
           "beamwidth at -3 dB of the line along x that transmits and receives", self.horizontal_beamwidth_rad);
     visit("horizontal_beamwidth_is", "", one_of({{"one_way", false}, {"two_way", true}}),
