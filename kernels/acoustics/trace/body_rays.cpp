@@ -25,6 +25,17 @@ double longest_side_m(const Facet& facet) {
   return longest_m;
 }
 
+/// Of the sphere about its middle that holds all of a facet.
+double reach_m(const Facet& facet) {
+  const Vec3 middle = middle_of(facet);
+  double reach = 0.0, bulge = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    reach = std::max(reach, (facet.corners[c] - middle).norm());
+    bulge = std::max(bulge, std::abs(facet.bulge_m[c]));
+  }
+  return reach + bulge;
+}
+
 bool faces(const Facet& facet, const Vec3& head_enu_m, bool two_sided) {
   return two_sided || across(facet).dot(head_enu_m - middle_of(facet)) > 0.0;
 }
@@ -146,14 +157,18 @@ void RayDistribution::gather_pieces(const Probes& probes, const Targets& of, std
   const Vec3& head = view.head.position_enu_m;
   const PieceSize size{of, settings_.range_resolution_m, coarser};
   const TowardsBody towards(view, shown);
+  const auto meets = [&](const Facet& facet) {  // the volume, with room for what bending turns
+    const Vec3 off = middle_of(facet) - head;
+    const double radius_m = reach_m(facet) + (view.refracted != nullptr ? kMostRefraction_rad * off.norm() : 0.0);
+    return touches(probes, view.head.enu_from_head.conjugate() * off, radius_m);
+  };
   const std::size_t first = memory.pieces.size();
   double wanted = 0.0;
   for (std::size_t t = 0; t < shown.body->surface.mesh.triangle.size(); ++t) {
     const Facet whole = facet_of(shown.body->surface, t);
     if (!faces(whole, head, shown.body->two_sided)) continue;
-    std::uint64_t number = std::uint64_t{t} << 32;
-    split_facet(whole, size.side_m(shown, (middle_of(whole) - head).norm()), [&](const Facet& facet) {
-      const FacetMemory::Piece piece{body, number++, facet, 1.0};
+    const auto add = [&](const Facet& facet, std::uint32_t way) {
+      const FacetMemory::Piece piece{body, std::uint64_t{t} << 32 | way, facet, 1.0};
       if (shown.body->smooth) return memory.pieces.push_back(piece);
       std::array<Vec3, 3> corners;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -166,7 +181,8 @@ void RayDistribution::gather_pieces(const Probes& probes, const Targets& of, std
       memory.pieces.push_back(piece);
       memory.pieces.back().wanted = std::max(std::min(rays, 1.0), kOfFacetOfTile * rays);
       wanted += memory.pieces.back().wanted;
-    });
+    };
+    split_facet_where(meets, whole, size.side_m(shown, (middle_of(whole) - head).norm()), add);
   }
   if (shown.body->smooth) return;
   const double more = std::max(1.0, kFewestRays / std::max(wanted, 1e-9));

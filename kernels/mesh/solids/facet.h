@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "kernels/base/frames/attitude.h"
 #include "kernels/mesh/solids/solid.h"
@@ -37,24 +39,27 @@ Facet facet_of(const Surface& surface, std::size_t triangle);
 /// The middle of an edge, on the surface.
 frames::Vec3 middle_of_edge(const Facet& facet, std::size_t edge);
 
+/// The two parts of a facet that is cut across its longest side; nothing where no side is longer.
+std::optional<std::array<Facet, 2>> cut(const Facet& facet, double longest_m);
+
 /// Calls each(facet) for the parts of a facet, cut across its longest side until none is longer.
 template <class Each>
 void split_facet(const Facet& facet, double longest_m, const Each& each) {
-  const Corners& corner = facet.corners;
-  const std::array<double, 3>& bulge_m = facet.bulge_m;
-  const auto length2 = [&](std::size_t c) { return (corner[(c + 1) % 3] - corner[c]).squaredNorm(); };
-  std::size_t edge = 0;
-  for (const std::size_t c : {1U, 2U}) {
-    if (length2(c) > length2(edge)) edge = c;
-  }
-  if (length2(edge) <= longest_m * longest_m) return each(facet);
-  const std::size_t next = (edge + 1) % 3, last = (edge + 2) % 3;
-  const frames::Vec3 middle = middle_of_edge(facet, edge);
-  const double cut_m = 0.5 * (bulge_m[next] + bulge_m[last]) - 0.25 * bulge_m[edge];  // of the way to the third corner
-  split_facet(Facet{{corner[edge], middle, corner[last]}, {0.25 * bulge_m[edge], cut_m, bulge_m[last]}}, longest_m,
-              each);
-  split_facet(Facet{{middle, corner[next], corner[last]}, {0.25 * bulge_m[edge], bulge_m[next], cut_m}}, longest_m,
-              each);
+  const auto parts = cut(facet, longest_m);
+  if (!parts) return each(facet);
+  for (const Facet& part : *parts) split_facet(part, longest_m, each);
+}
+
+/// The same without parts that do not meet something, which are not cut further: each(facet, way). The way to a part is
+/// the same whatever is left out: after a leading 1 a bit for each cut.
+template <class Meets, class Each>
+void split_facet_where(const Meets& meets, const Facet& facet, double longest_m, const Each& each,
+                       std::uint32_t way = 1) {
+  if (!meets(facet)) return;
+  const auto parts = cut(facet, longest_m);
+  if (!parts) return each(facet, way);
+  split_facet_where(meets, (*parts)[0], longest_m, each, 2 * way);
+  split_facet_where(meets, (*parts)[1], longest_m, each, 2 * way + 1);
 }
 
 }  // namespace ensonify::solids
