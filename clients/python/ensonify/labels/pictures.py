@@ -119,11 +119,21 @@ def _picture(name: str, pairs: list, arrange, display: Display, facts: dict, res
 
 def _settings(pairs: list, scale_upa: float, display: Display, facts: dict) -> dict:
     ping = pairs[0].ping
+    if ping.kind == "sidescan":
+        facts = {**facts, "line_spacing_m": _line_spacing_m(pairs)}
+    else:
+        facts = {**facts, "beam_from_rad": float(ping.beam_angle_rad.min()), "beam_to_rad": float(ping.beam_angle_rad.max())}
     return {**facts, "kind": ping.kind, "first_ping": ping.ping, "pings": len(pairs), "stamp_ns": ping.stamp_ns,
             "sample_period_s": ping.sample_period_s, "sound_speed_mps": ping.sound_speed_mps, "range_m": ping.range_m,
             "frequency_hz": ping.frequency_hz, "source_level_db": ping.source_level_db, "scale_upa": scale_upa,
             "gain_spreading_db": ping.gain_spreading_db, "gain_absorption_dbpm": ping.gain_absorption_dbpm,
             "gain_offset_db": ping.gain_offset_db, "white_db": display.white_db, "range_db": display.range_db}
+
+
+def _line_spacing_m(pairs: list) -> float:
+    """Of a waterfall, on the mean, by the head's estimated poses."""
+    first, last = (np.asarray(pair.ping.pose_position_enu_m[0]) for pair in (pairs[0], pairs[-1]))
+    return float(np.linalg.norm(last - first)) / max(len(pairs) - 1, 1)
 
 
 def of_ping(pair: of.Labelled, view: str, display: Display, facts: dict, response: bool = False) -> Picture:

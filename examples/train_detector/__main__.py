@@ -1,0 +1,118 @@
+"""Trains a detector on generated pictures alone, and tests it on generated and on real ones.
+
+    python examples/train_detector make imaging -o out/detector      # or sidescan; 40 minutes on two cores; call it again to go on
+    python examples/train_detector test out/detector                 # on generated scenes of other places
+    python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
+"""
+import argparse
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+
+import judging
+import labelled
+import scenes
+import training
+from detector import Detector
+
+ALARMS_ON_EMPTY = 0.05  # share of generated validation pictures without things that may have one, by which the threshold is set
+
+
+def make(given: argparse.Namespace) -> int:
+    began = time.monotonic()
+    given.out.mkdir(parents=True, exist_ok=True)
+    sets = scenes.make(given.kind, given.pictures, given.out, given.jobs)
+    names = scenes.classes(sets)
+    made = time.monotonic()
+    net = training.train(scenes.generated.masters(sets, "train"), names, given.out / "training.pt", given.steps, given.seed, given.jobs)
+    detector = Detector(net, names, 0.5, {"kind": given.kind, "pictures": given.pictures, "steps": given.steps, "seed": given.seed,
+                                          "parameters": sum(weight.numel() for weight in net.parameters())})
+    detector.threshold = threshold_of(detector, scenes.shown(sets, "val", names, given.validate))
+    detector.save(given.out / "detector.pt")
+    print(f"{given.out / 'detector.pt'}: {detector.about['parameters']} parameters, classes {', '.join(names)}, threshold {detector.threshold:.3f}; "
+          f"{(made - began) / 60:.1f} min for pictures, {(time.monotonic() - made) / 60:.1f} min for training")
+    return 0
+
+
+def threshold_of(detector: Detector, pictures: list) -> float:
+    """The least score at which few pictures without things have a false alarm."""
+    highest = [detector.find(picture.grey(), least_score=1e-3).scores[:1] for picture in pictures if not picture.things]
+    surest = np.sort([float(score[0]) if len(score) else 0.0 for score in highest])
+    if not surest.size:
+        raise scenes.Failed("no validation picture is without things; allowed is a set of more pictures")
+    return float(np.clip(surest[int(np.ceil((1 - ALARMS_ON_EMPTY) * surest.size)) - 1] + 1e-3, 0.05, 0.95))
+
+
+def test(given: argparse.Namespace) -> int:
+    folder = given.detector if given.detector.is_dir() else given.detector.parent
+    file = folder / "detector.pt" if given.detector.is_dir() else given.detector
+    if not file.is_file():
+        raise labelled.Unreadable(f"{file}: is not there; allowed is what `make` made")
+    torch.set_num_threads(given.jobs)
+    detector = Detector.load(file)
+    if given.pictures is not None:
+        given.pictures.mkdir(parents=True, exist_ok=True)
+    if given.folder is None:
+        pictures = scenes.shown([folder / name for name in scenes.RECIPES[detector.about["kind"]]], "test", detector.names, given.count)
+    else:
+        pictures = labelled.chosen(labelled.read(given.folder), renamed(given.rename), given.drop, given.only, given.ignore)
+    unknown = {thing.name for picture in pictures for thing in picture.things if not thing.ignored} - set(detector.names)
+    if unknown:
+        print(f"classes that the detector has not, counted blind to class alone: {', '.join(sorted(unknown))}; it has {', '.join(detector.names)}",
+              file=sys.stderr)
+    boxes = any(thing.box is not None for picture in pictures for thing in picture.things) or not any(picture.things for picture in pictures)
+    result = judging.against_boxes(detector, pictures, given.pictures) if boxes else judging.against_classes(detector, pictures)
+    print(judging.as_text(result))
+    if given.json is not None:
+        given.json.write_text(judging.as_json(result))
+    return 0
+
+
+def renamed(pairs: list) -> dict:
+    wrong = [pair for pair in pairs if "=" not in pair]
+    if wrong:
+        raise labelled.Unreadable(f"--rename {wrong[0]}: allowed is THEIRS=OURS")
+    return dict(pair.split("=", 1) for pair in pairs)
+
+
+def arguments() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="train_detector", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    verbs = parser.add_subparsers(dest="verb", required=True)
+    of = verbs.add_parser("make", help="make pictures, train, fix the threshold")
+    of.add_argument("kind", choices=sorted(scenes.RECIPES))
+    of.add_argument("-o", "--out", type=Path, required=True)
+    of.add_argument("--pictures", type=int, default=None, help="number of generated pictures, of all recipes; default 2400 of imaging heads, 240 waterfalls")
+    of.add_argument("--steps", type=int, default=1500, help=f"of training, {training.BATCH} pictures each")
+    of.add_argument("--validate", type=int, default=400, help="number of validation pictures")
+    of.add_argument("--seed", type=int, default=1)
+    of.add_argument("--jobs", type=int, default=2)
+    of = verbs.add_parser("test", help="score a detector on generated or on labelled pictures")
+    of.add_argument("detector", type=Path, help="folder that `make` wrote, or its detector.pt")
+    of.add_argument("folder", type=Path, nargs="?", help="labelled pictures; left out: generated scenes of other places")
+    of.add_argument("--rename", action="append", default=[], metavar="THEIRS=OURS", help="class of theirs that is one of the detector's")
+    of.add_argument("--drop", action="append", default=[], metavar="CLASS", help="counts as nothing: finding it is a false alarm")
+    of.add_argument("--only", action="append", default=[], metavar="CLASS", help="all others are dropped")
+    of.add_argument("--ignore", action="append", default=[], metavar="CLASS", help="neither wanted nor a false alarm")
+    of.add_argument("--count", type=int, default=400, help="number of generated pictures")
+    of.add_argument("--json", type=Path, help="scores as JSON")
+    of.add_argument("--pictures", type=Path, help="folder for pictures with labels and finds drawn in")
+    of.add_argument("--jobs", type=int, default=2)
+    return parser
+
+
+def main() -> int:
+    given = arguments().parse_args()
+    if given.verb == "make" and given.pictures is None:
+        given.pictures = {"imaging": 2400, "sidescan": 240}[given.kind]
+    try:
+        return make(given) if given.verb == "make" else test(given)
+    except (labelled.Unreadable, scenes.Failed) as error:
+        print(f"train_detector: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,233 @@
+"""examples/train_detector: its scores against COCO's own, its readers against each other, and a shortened training."""
+import contextlib
+import importlib.util
+import io
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+from support import BIN, SOURCE
+
+HERE = SOURCE / "examples/train_detector"
+NEEDED = importlib.util.find_spec("torch") is not None
+sys.path.insert(0, str(HERE))
+
+
+def run(*words: str) -> subprocess.CompletedProcess:
+    environment = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
+    return subprocess.run([sys.executable, str(HERE), *words], capture_output=True, text=True, timeout=500, env=environment)
+
+
+def random_picture(random: np.random.Generator, kinds: int):
+    """Things, some that do not count, and finds near to them or anywhere."""
+    import scores
+    count = int(random.integers(0, 5))
+    corner = random.uniform(0, 200, (count, 2))
+    boxes = np.hstack([corner, corner + random.uniform(10, 60, (count, 2))])
+    found = [box + random.normal(0, 4, 4) for box in boxes for _ in range(int(random.integers(0, 3)))]
+    stray = random.uniform(0, 200, (int(random.integers(0, 4)), 2))
+    found = np.array(found + [np.hstack([at, at + random.uniform(10, 60, 2)]) for at in stray]).reshape(-1, 4)
+    found[:, 2:] = np.maximum(found[:, 2:], found[:, :2] + 1)
+    score = np.sort(random.uniform(0, 1, len(found)))[::-1]
+    shares = np.eye(kinds)[random.integers(kinds, size=len(found))]
+    return scores.Judged(boxes, random.integers(kinds, size=count), random.random(count) < 0.15, found, score, shares, 256 * 256)
+
+
+@unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
+class Scores(unittest.TestCase):
+    def by_coco(self, pictures, blind: bool) -> np.ndarray:
+        """Precision by threshold, recall and class, of the reference implementation."""
+        from pycocotools.coco import COCO
+        from pycocotools.cocoeval import COCOeval
+        wide = lambda box: [box[0], box[1], box[2] - box[0], box[3] - box[1]]  # noqa: E731
+        annotations, finds = [], []
+        for number, picture in enumerate(pictures, 1):
+            for box, kind, ignored in zip(picture.boxes, picture.kinds, picture.ignored):
+                for of in ([1] if blind else ([1, 2, 3] if ignored else [int(kind) + 1])):
+                    annotations.append({"id": len(annotations) + 1, "image_id": number, "category_id": of, "bbox": wide(box),
+                                        "area": float((box[2] - box[0]) * (box[3] - box[1])), "iscrowd": int(ignored)})
+            for box, score, share in zip(picture.found, picture.scores, picture.shares):
+                finds.append({"image_id": number, "category_id": 1 if blind else int(share.argmax()) + 1, "bbox": wide(box), "score": float(score)})
+        truth = COCO()
+        truth.dataset = {"images": [{"id": i + 1, "width": 300, "height": 300} for i in range(len(pictures))], "annotations": annotations,
+                         "categories": [{"id": i + 1} for i in range(1 if blind else 3)]}
+        with contextlib.redirect_stdout(io.StringIO()):
+            truth.createIndex()
+            judge = COCOeval(truth, truth.loadRes(finds), "bbox")
+            judge.evaluate()
+            judge.accumulate()
+        return judge.eval["precision"][:, :, :, 0, 2]
+
+    def test_average_precision_is_coco_s(self):
+        import scores
+        random = np.random.default_rng(3)
+        pictures = [random_picture(random, 3) for _ in range(60)]
+        blind = self.by_coco(pictures, blind=True)
+        for i, least in enumerate(scores.THRESHOLDS):
+            self.assertAlmostEqual(scores.average_precision(pictures, least), blind[i].mean(), places=6)
+        by_class = self.by_coco(pictures, blind=False)
+        for picture in pictures:  # a find of another class is none of this class's
+            picture.shares[picture.shares == 0] = 1e-9
+        for kind in range(3):
+            mine = [scores.Judged(of.boxes, of.kinds, of.ignored, of.found[of.shares.argmax(1) == kind], of.scores[of.shares.argmax(1) == kind],
+                                  of.shares[of.shares.argmax(1) == kind], of.pixels) for of in pictures]
+            self.assertAlmostEqual(scores.average_precision(mine, 0.5, kind), by_class[0, :, kind].mean(), places=6)
+
+    def test_false_alarms_by_hand(self):
+        import scores
+        box = np.array([[10.0, 10, 30, 30]])
+        found = np.array([[12.0, 12, 28, 28], [11, 11, 31, 31], [100, 100, 120, 120]])  # a hit, a second hit, a false alarm
+        one = scores.Judged(box, np.array([0]), np.array([False]), found, np.array([0.9, 0.8, 0.7]), np.ones((3, 1)), 40000)
+        other = scores.Judged(np.zeros((0, 4)), np.array([], int), np.array([], bool), found[2:], np.array([0.95]), np.ones((1, 1)), 60000)
+        self.assertEqual(scores.alarms(one).tolist(), [1, -1, 0])
+        self.assertEqual(scores.recall_at([one, other], 0.0), 0.0)  # the surest of all is a false alarm
+        self.assertEqual(scores.recall_at([one, other], 0.5), 1.0)
+        at = scores.at_threshold([one, other], 0.85)
+        self.assertEqual((at["recall"], at["empty_with_alarm"]), (1.0, 1.0))
+        self.assertAlmostEqual(at["alarms_per_megapixel"], 1 / 0.06)
+        self.assertFalse(scores.near(np.array([0.0, 0, 100, 100]), np.array([45.0, 45, 55, 55])))  # areas differ by a hundred
+        of = scores.of_classes(np.array([0, 0, 1, 1]), np.array([0, 1, 1, -1]), 2)
+        self.assertEqual(of["balanced accuracy"], 0.5)
+        self.assertAlmostEqual(of["macro F1"], (2 / 3 + 1 / 2) / 2)
+
+
+class Readers(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def picture(self, name: str, level: int = 90) -> None:
+        file = self.folder / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        Image.fromarray(np.full((40, 50), level, np.uint8)).save(file)
+
+    def boxes(self) -> list:
+        import labelled
+        return [(picture.file.name, thing.name, [round(float(x), 3) for x in thing.box], thing.ignored)
+                for picture in labelled.read(self.folder) for thing in picture.things]
+
+    def test_the_same_thing_in_four_forms(self):
+        wanted = [("a.png", "ball", [10.0, 5.0, 20.0, 25.0], False)]
+        self.picture("images/a.png")
+        mask = np.zeros((40, 50), np.uint8)
+        mask[5:25, 10:20] = 1
+        (self.folder / "masks").mkdir()
+        Image.fromarray(mask).save(self.folder / "masks/a.png")
+        (self.folder / "classes.txt").write_text("ball\n")
+        self.assertEqual(self.boxes(), wanted)
+        (self.folder / "a.xml").write_text("<annotation><filename>a.png</filename><object><name>ball</name><bndbox><xmin>11</xmin><ymin>6</ymin>"
+                                           "<xmax>20</xmax><ymax>25</ymax></bndbox></object></annotation>")
+        self.assertEqual(self.boxes(), wanted)
+        (self.folder / "labels").mkdir()
+        (self.folder / "labels/a.txt").write_text("0 0.3 0.375 0.2 0.5\n")
+        (self.folder / "data.yaml").write_text("names: [ball]\n")
+        self.assertEqual(self.boxes(), wanted)
+        from pycocotools import mask as coco_mask
+        text = coco_mask.encode(np.asfortranarray(mask))
+        annotation = {"id": 1, "image_id": 7, "category_id": 3, "bbox": [10, 5, 10, 20], "iscrowd": 0, "area": 200,
+                      "segmentation": {"size": text["size"], "counts": text["counts"].decode()}}
+        (self.folder / "all.json").write_text(json.dumps({"images": [{"id": 7, "file_name": "a.png", "width": 50, "height": 40, "group": "g"}],
+                                                          "annotations": [annotation], "categories": [{"id": 3, "name": "ball"}]}))
+        self.assertEqual(self.boxes(), wanted)
+        import labelled
+        self.assertTrue((labelled.read(self.folder)[0].things[0].mask((40, 50)) == mask).all())
+
+    def test_two_parts_of_a_mask_are_two_things_and_folders_are_classes(self):
+        self.picture("images/a.png")
+        mask = np.zeros((40, 50, 3), np.uint8)
+        mask[5:9, 10:20] = mask[20:30, 3:8] = 255
+        mask[8:12, 19:22] = 255  # hangs together with the first
+        (self.folder / "masks").mkdir()
+        Image.fromarray(mask).save(self.folder / "masks/a.png")
+        self.assertEqual([box for _, _, box, _ in self.boxes()], [[10, 5, 22, 12], [3, 20, 8, 30]])
+        import labelled
+        with tempfile.TemporaryDirectory() as other:
+            self.folder = Path(other)
+            for name in ("ball/1.png", "tyre/2.png", "empty/3.png"):
+                self.picture(name)
+            self.assertEqual([[thing.name for thing in picture.things] for picture in labelled.read(self.folder)], [["ball"], [], ["tyre"]])
+
+    def test_names_are_changed_dropped_and_ignored(self):
+        import labelled
+        self.folder.joinpath("labels").mkdir()
+        self.picture("images/a.png")
+        self.folder.joinpath("labels/a.txt").write_text("0 0.5 0.5 0.2 0.2\n1 0.2 0.2 0.1 0.1\n2 0.8 0.8 0.1 0.1\n")
+        read = labelled.chosen(labelled.read(self.folder), {"0": "ball"}, ["1"], [], ["2"])
+        self.assertEqual([(thing.name, thing.ignored) for thing in read[0].things], [("ball", False), ("2", True)])
+
+    def test_nearly_equal_pictures_are_one_group(self):
+        from groups import groups_of
+        import labelled
+        random = np.random.default_rng(1)
+        scene = random.uniform(0, 255, (2, 40, 50))
+        for i, level in enumerate((scene[0], 0.8 * scene[0] + 10, scene[1])):
+            self.picture(f"{i}.png")
+            Image.fromarray(level.astype(np.uint8)).save(self.folder / f"{i}.png")
+        pictures = [labelled.Labelled(self.folder / f"{i}.png", []) for i in range(3)]
+        self.assertEqual(groups_of(pictures).tolist(), [0, 0, 1])
+        for picture, group in zip(pictures, "xyx"):
+            picture.group = group
+        self.assertEqual(groups_of(pictures).tolist(), [0, 1, 0])
+
+    def test_what_cannot_be_read_is_said(self):
+        import labelled
+        for name, text, cause in (("a.json", "{", "JSONDecodeError"), ("b.json", json.dumps(dict(
+                images=[{"id": 1, "file_name": "no.png"}], annotations=[], categories=[])), "no.png: there is no such picture")):
+            with tempfile.TemporaryDirectory() as folder:
+                Path(folder, name).write_text(text)
+                with self.assertRaisesRegex(labelled.Unreadable, cause):
+                    labelled.read(Path(folder))
+        with self.assertRaisesRegex(labelled.Unreadable, "allowed are COCO"):
+            labelled.read(self.folder)
+        with self.assertRaisesRegex(labelled.Unreadable, "is no folder"):
+            labelled.read(self.folder / "none")
+
+
+@unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
+class Training(unittest.TestCase):
+    def test_a_shortened_training(self):
+        """It learns something, goes on where it was cut off, and is tested in one command; not to be compared with a whole one."""
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder, "out")
+            make = ("make", "imaging", "-o", str(out), "--pictures", "90", "--validate", "60")
+            done = run(*make, "--steps", "40")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            first = (out / "detector.pt").read_bytes()
+            done = run(*make, "--steps", "60")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("step 60 of 60", done.stdout)
+            self.assertNotIn("step 1 of", done.stdout)
+            self.assertNotEqual(first, (out / "detector.pt").read_bytes())
+            done = run("test", str(out), "--count", "60", "--json", str(out / "scores.json"), "--pictures", str(out / "drawn"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads((out / "scores.json").read_text())
+            self.assertGreater(result["things"], 15)
+            self.assertGreater(result["scores"]["recall at 1 alarms a picture"]["value"], 0.1, done.stdout)
+            self.assertEqual(len(list((out / "drawn").iterdir())), 60)
+            self.real_folders(out)
+
+    def real_folders(self, out: Path):
+        """A folder for each class, and one with nothing in it; a class that the detector has not."""
+        random = np.random.default_rng(2)
+        for of in ("kugel", "tyre", "empty"):
+            (out / "real" / of).mkdir(parents=True)
+            for i in range(3):
+                Image.fromarray(random.integers(0, 255, (70, 61), np.uint8)).save(out / "real" / of / f"{i}.jpg")
+        done = run("test", str(out), str(out / "real"), "--rename", "kugel=ball")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("balanced accuracy", done.stdout)
+        done = run("test", str(out), str(out / "real"))
+        self.assertIn("classes that the detector has not", done.stderr)
+        for words, cause in ((("test", str(out / "none")), "detector.pt: is not there"), (("test", str(out), str(out / "drawn")), "allowed are COCO"),
+                             (("test", str(out), str(out / "real"), "--rename", "x"), "allowed is THEIRS=OURS")):
+            done = run(*words)
+            self.assertEqual((done.returncode, cause in done.stderr), (2, True), done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
