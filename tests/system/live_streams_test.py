@@ -8,6 +8,7 @@ import subprocess
 import sys
 import unittest
 
+import ensonify
 import support
 
 SECONDS = 9
@@ -16,8 +17,8 @@ COLUMN = "mode: water_column, amplitude_every: 4, seabed_image: { published: tru
 BOW = "  bow:   { run: multibeam }\n"
 
 
-def launch(send, formats="[all, kmall, wcd, kmwcd]", rate=1, seconds=SECONDS):
-    text = support.bay(seconds, "[bow/soundings]").replace("rate: free", f"rate: {rate}")
+def launch(send, formats="[all, kmall, wcd, kmwcd]", rate=1, seconds=SECONDS, topics="[bow/soundings]"):
+    text = support.bay(seconds, topics).replace("rate: free", f"rate: {rate}")
     return text.replace(BOW, BOW.replace("}", f", config: {{ {COLUMN} }} }}")) + (
         f"  log: {{ run: logger, config: {{ head: bow, formats: {formats}, rotate_s: 4, send: [{', '.join(send)}] }} }}\n")
 
@@ -78,11 +79,11 @@ class LiveStreams(support.SystemTest):
         groups = {one: self.free_port() for one in formats[:2]}
         both, absent, (_, unread) = self.free_port(), self.free_port(), self.bound()
         clients = [self.receive(port) for port in (*ports.values(), both)]
-        clients += [self.receive(port, "--group", "239.255.77.7") for port in groups.values()]
+        clients += [self.receive(port, "239.255.77.7", "127.0.0.1") for port in groups.values()]
         send = [receiver(f"127.0.0.1:{port}", [one]) for one, port in ports.items()]
         send += [receiver(f"239.255.77.7:{port}", [one]) for one, port in groups.items()]
         send += [receiver(f"127.0.0.1:{both}", ["all", "wcd"]), receiver(absent, ["all"]), receiver(unread, ["kmall", "kmwcd"])]
-        result = self.run_launch(launch(send), timeout=120)
+        result = self.run_launch(launch(send, topics="[log/health]"), timeout=120)
         self.assertEqual(result.code, 0, result.stderr)
         for client in clients:
             self.assertEqual(client.wait(30), 0)
@@ -102,6 +103,13 @@ class LiveStreams(support.SystemTest):
         self.assertEqual({to: one["lost"] for to, one in sent.items() if one["lost"]}, {})
         self.assertGreater(sent[f"127.0.0.1:{absent}"]["refused"], 20)
         self.assertEqual(sent[f"127.0.0.1:{unread}"]["refused"], 0)
+        with ensonify.Record(result.out / "run.mcap") as record:
+            health = [message.content for message in record.messages("log/health")][-1]
+        counts = {counter.name: counter.count for counter in health.counters}
+        self.assertGreater(counts["stream_refused"], 20)
+        self.assertGreater(counts["stream_bytes"], 1_000_000)
+        self.assertLessEqual(counts["stream_bytes"], sum(one["bytes"] for one in sent.values()))
+        self.assertNotIn("stream_lost", counts)
         # #MWC are longer than a datagram of UDP.
         self.assertGreater(sent[f"127.0.0.1:{ports['kmwcd']}"]["datagrams"], 2 * sum(
             file.read_bytes().count(b"#MWC") for file in result.out.glob("*.kmwcd")))
@@ -125,7 +133,7 @@ class LiveStreams(support.SystemTest):
 
         inside = ("ip", "netns", "exec", there)
         clients = [self.receive(16101, prefix=inside), self.receive(16102, prefix=inside),
-                   self.receive(16103, "--group", "239.255.77.7", "--interface", "10.78.0.2", prefix=inside)]
+                   self.receive(16103, "239.255.77.7", "10.78.0.2", prefix=inside)]
         send = [receiver("10.78.0.2:16101", ["all"]), receiver("10.78.0.2:16102", ["kmwcd"]),
                 receiver("239.255.77.7:16103", ["kmall"], ", interface: 10.78.0.1"), receiver("10.99.0.1:16104", ["all"])]
         result = self.run_launch(launch(send), timeout=120, prefix=("ip", "netns", "exec", here))
