@@ -41,7 +41,7 @@ def against_boxes(detector: Detector, pictures: list, draw: Path | None = None) 
     def score(some: list) -> dict:
         return scores.of_boxes(some, asked, detector.threshold)
 
-    values, between = score(of), scores.interval(score, of, groups, draws=60 if len(of) > 300 else 200)
+    values, between = score(of), scores.interval(score, of, groups)
     result["scores"] = {name: {"value": value, "interval": between[name]} for name, value in values.items()}
     result["AP50 by class"] = {detector.names[kind]: scores.average_precision(of, 0.5, kind) for kind in asked}
     if mask_iou:

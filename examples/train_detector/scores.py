@@ -3,7 +3,7 @@
 Boxes are matched as COCO does: the surest first, each to the thing of the largest overlap that nothing surer has. What overlaps only things
 that do not count is left out.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,6 +23,18 @@ class Judged:
     scores: np.ndarray  # finds
     shares: np.ndarray  # finds x classes
     pixels: int
+    memory: dict = field(default_factory=dict)  # what was judged already: pictures are drawn again and again for intervals
+
+    def of_kind(self, least: float, kind: int | None) -> tuple:
+        """(scores, hits, number of things) of a class, the surest find first; kind None: of all, blind to class."""
+        key = (round(least, 3), kind)
+        if key not in self.memory:
+            wanted = np.ones(len(self.boxes), bool) if kind is None else (self.kinds == kind) | self.ignored
+            score = self.scores if kind is None else self.scores * self.shares[:, kind]
+            order = np.argsort(-score, kind="stable")
+            ignored = self.ignored[wanted]
+            self.memory[key] = score[order], hits(self.boxes[wanted], ignored, self.found[order], least), int((~ignored).sum())
+        return self.memory[key]
 
 
 def hits(truth: np.ndarray, ignored: np.ndarray, found: np.ndarray, least: float) -> np.ndarray:
@@ -48,16 +60,10 @@ def _inside(box: np.ndarray, region: np.ndarray) -> float:
 
 def average_precision(pictures: list, least: float, kind: int | None = None) -> float:
     """COCO's, at 101 recalls. kind None: blind to classes. NaN where nothing is to be found."""
-    scores, is_hit, wanted = [], [], 0
-    for picture in pictures:
-        of_kind = np.ones(len(picture.boxes), bool) if kind is None else (picture.kinds == kind) | picture.ignored
-        score = picture.scores if kind is None else picture.scores * picture.shares[:, kind]
-        order = np.argsort(-score, kind="stable")
-        ignored = picture.ignored[of_kind]
-        scores.append(score[order])
-        is_hit.append(hits(picture.boxes[of_kind], ignored, picture.found[order], least))
-        wanted += int((~ignored).sum())
-    return _area_under(np.concatenate(scores), np.concatenate(is_hit), wanted) if pictures else float("nan")
+    if not pictures:
+        return float("nan")
+    scores, is_hit, wanted = zip(*(picture.of_kind(least, kind) for picture in pictures))
+    return _area_under(np.concatenate(scores), np.concatenate(is_hit), sum(wanted))
 
 
 def _area_under(scores: np.ndarray, is_hit: np.ndarray, wanted: int) -> float:
@@ -86,6 +92,8 @@ def _holds(box: np.ndarray, other: np.ndarray) -> bool:
 
 def alarms(picture: Judged) -> np.ndarray:
     """Of each find, the surest first: 1 the first hit of a thing, 0 a false alarm, -1 neither (a second hit, or what does not count)."""
+    if "alarms" in picture.memory:
+        return picture.memory["alarms"]
     result, taken = np.zeros(len(picture.found), int), np.zeros(len(picture.boxes), bool)
     for i, box in enumerate(picture.found):
         touched = [j for j, other in enumerate(picture.boxes) if near(box, other)]
@@ -96,16 +104,16 @@ def alarms(picture: Judged) -> np.ndarray:
             result[i] = 1
         elif wanted or any(picture.ignored[j] and (j in touched or _inside(box, picture.boxes[j]) >= 0.5) for j in range(len(picture.boxes))):
             result[i] = -1
+    picture.memory["alarms"] = result
     return result
 
 
-def recall_at(pictures: list, alarms_a_picture: float, told: list | None = None) -> float:
+def recall_at(pictures: list, alarms_a_picture: float) -> float:
     """Share of things found at so many false alarms a picture, over all pictures."""
-    told = [alarms(picture) for picture in pictures] if told is None else told
     wanted = sum(int((~picture.ignored).sum()) for picture in pictures)
     if wanted == 0:
         return float("nan")
-    scores, of = np.concatenate([picture.scores for picture in pictures]), np.concatenate(told)
+    scores, of = np.concatenate([picture.scores for picture in pictures]), np.concatenate([alarms(picture) for picture in pictures])
     order = np.argsort(-scores, kind="stable")
     allowed = np.cumsum(of[order] == 0) <= alarms_a_picture * len(pictures) + 1e-9
     return float(((of[order] == 1) & allowed).sum() / wanted)
@@ -126,10 +134,9 @@ def of_boxes(pictures: list, kinds: list, threshold: float) -> dict:
     """All scores of pictures with boxes. kinds: places of the classes that are asked for."""
     by_kind = {kind: average_precision(pictures, 0.5, kind) for kind in kinds}
     known = [value for value in by_kind.values() if not np.isnan(value)]
-    told = [alarms(picture) for picture in pictures]
     return {"AP": float(np.mean([average_precision(pictures, least) for least in THRESHOLDS])), "AP50": average_precision(pictures, 0.5),
             "mAP50": float(np.mean(known)) if known else float("nan"),
-            **{f"recall at {rate:g} alarms a picture": recall_at(pictures, rate, told) for rate in (0.25, 1)},
+            **{f"recall at {rate:g} alarms a picture": recall_at(pictures, rate) for rate in (0.25, 1)},
             **at_threshold(pictures, threshold)}
 
 

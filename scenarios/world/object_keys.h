@@ -52,6 +52,7 @@ struct TyreKeys : solids::Tyre {
     visit("diameter_m", "m", object_size(), "diameter of a tyre, over all", self.diameter_m);
     visit("width_m", "m", object_size(), "width of a tyre, along its z", self.width_m);
   }
+  void check(const ConfigReader& from) const;
 };
 struct PipeKeys : solids::Pipe {
   static void parameters(auto& self, auto&& visit) {
@@ -59,6 +60,7 @@ struct PipeKeys : solids::Pipe {
     visit("length_m", "m", must(object_size()), "length of a pipe, along its y", self.length_m);
     visit("wall_m", "m", must(object_size()), "thickness of a pipe's wall", self.wall_m);
   }
+  void check(const ConfigReader& from) const;
 };
 struct BottleKeys : solids::Bottle {
   BottleKeys() : solids::Bottle{0.08, 0.3} {}
@@ -73,6 +75,7 @@ struct ShellKeys : solids::Shell {
     visit("diameter_m", "m", object_size(), "calibre of a shell", self.diameter_m);
     visit("length_m", "m", object_size(), "length of a shell, along its y", self.length_m);
   }
+  void check(const ConfigReader& from) const;
 };
 struct WedgeKeys : solids::Wedge {
   static void parameters(auto& self, auto&& visit) {

@@ -102,6 +102,22 @@ Eigen::Matrix3d ObjectPlace::enu_from_object() const {
          Eigen::AngleAxisd(-heading_rad, frames::Vec3::UnitZ()).toRotationMatrix();
 }
 
+void TyreKeys::check(const ConfigReader& from) const {
+  if (!(diameter_m > 2.0 * width_m))
+    from.problem("diameter_m", fmt::format("{:g} is not above twice its width_m of {:g}", diameter_m, width_m));
+}
+
+void PipeKeys::check(const ConfigReader& from) const {
+  if (!(diameter_m > 2.0 * wall_m))
+    from.problem("wall_m", fmt::format("{:g} leaves no bore in diameter_m {:g}; allowed: less than half of it", wall_m,
+                                       diameter_m));
+}
+
+void ShellKeys::check(const ConfigReader& from) const {
+  if (!(length_m > 1.25 * diameter_m))
+    from.problem("length_m", fmt::format("{:g} is not above 1.25 of its diameter_m of {:g}", length_m, diameter_m));
+}
+
 void StrewnObjectKeys::check(const ConfigReader& from) const {
   const auto rises = [&](const char* key, const std::array<double, 2>& limits) {
     if (limits[0] > limits[1]) from.problem(key, "falls; allowed is [least, most]");
