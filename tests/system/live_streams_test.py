@@ -77,26 +77,28 @@ class LiveStreams(support.SystemTest):
         formats = ("all", "kmall", "wcd", "kmwcd")
         ports = {one: self.free_port() for one in formats}
         groups = {one: self.free_port() for one in formats[:2]}
-        both, absent, (_, unread) = self.free_port(), self.free_port(), self.bound()
-        clients = [self.receive(port) for port in (*ports.values(), both)]
+        both, km_both, absent, (_, unread) = self.free_port(), self.free_port(), self.free_port(), self.bound()
+        clients = [self.receive(port) for port in (*ports.values(), both, km_both)]
         clients += [self.receive(port, "239.255.77.7", "127.0.0.1") for port in groups.values()]
         send = [receiver(f"127.0.0.1:{port}", [one]) for one, port in ports.items()]
         send += [receiver(f"239.255.77.7:{port}", [one]) for one, port in groups.items()]
-        send += [receiver(f"127.0.0.1:{both}", ["all", "wcd"]), receiver(absent, ["all"]), receiver(unread, ["kmall", "kmwcd"])]
+        send += [receiver(f"127.0.0.1:{both}", ["all", "wcd"]), receiver(km_both, ["kmall", "kmwcd"]), receiver(absent, ["all"]), receiver(unread, ["kmall", "kmwcd"])]
         result = self.run_launch(launch(send, topics="[log/health]"), timeout=120)
         self.assertEqual(result.code, 0, result.stderr)
         for client in clients:
             self.assertEqual(client.wait(30), 0)
         for one, port in [*ports.items(), *groups.items()]:
             self.expect_logged(result.out, port, one)
-        # Beside .all the water column's datagrams are k alone.
-        kinds = [file.read_bytes() for file in sorted(self.received.glob(f"{both}_*"))]
-        column = [b"".join(data for kind, data in datagrams(file) if kind == b"k") for file in kinds]
-        rest = [b"".join(data for kind, data in datagrams(file) if kind != b"k") for file in kinds]
-        self.assertTrue(rest == [file.read_bytes() for file in sorted(result.out.glob("*.all"))])
-        self.assertTrue(b"".join(column) == b"".join(
-            data for file in sorted(result.out.glob("*.wcd")) for kind, data in datagrams(file.read_bytes()) if kind == b"k"))
-        self.assertGreater(len(column[0]), 64_000)
+        # Beside .all the water column's datagrams are k alone, beside .kmall #MWC and #CHE.
+        for port, split, of_column, (soundings, column) in ((both, all_datagrams, (b"k",), ("all", "wcd")),
+                                                            (km_both, kmall_datagrams, (b"#MWC", b"#CHE"), ("kmall", "kmwcd"))):
+            received = [split(file.read_bytes()) for file in sorted(self.received.glob(f"{port}_*"))]
+            logged = [split(file.read_bytes()) for file in sorted(result.out.glob(f"*.{column}"))]
+            rest = [b"".join(data for kind, data in file if kind not in of_column) for file in received]
+            self.assertTrue(rest == [file.read_bytes() for file in sorted(result.out.glob(f"*.{soundings}"))], soundings)
+            of_received, of_logged = ([[data for kind, data in file if kind in of_column] for file in files] for files in (received, logged))
+            self.assertTrue(of_received == of_logged, column)
+            self.assertGreater(len(of_received[0]), 4)
         # Nothing is lost on the way out; an absent receiver is counted, and one that does not read cannot be known.
         sent = streamed(result.log("log"))
         self.assertEqual(len(sent), len(send))
@@ -113,6 +115,18 @@ class LiveStreams(support.SystemTest):
         # #MWC are longer than a datagram of UDP.
         self.assertGreater(sent[f"127.0.0.1:{ports['kmwcd']}"]["datagrams"], 2 * sum(
             file.read_bytes().count(b"#MWC") for file in result.out.glob("*.kmwcd")))
+
+    def test_the_client_takes_no_length_for_a_start_mark(self):
+        def of_length(kind, length):
+            return length.to_bytes(4, "little") + kind + bytes(length - 12) + length.to_bytes(4, "little")
+        sent = [of_length(b"#IIP", 258)] + [of_length(b"#SPO", length) for length in range(24, 600)]
+        port = self.free_port()
+        client = self.receive(port)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            for one in sent:
+                sender.sendto(one, ("127.0.0.1", port))
+        self.assertEqual(client.wait(30), 0)
+        self.assertTrue((self.received / f"{port}_1.kmall").read_bytes() == b"".join(sent))
 
     def test_a_machine_of_its_own_gets_the_streams(self):
         if os.geteuid() != 0 or not shutil.which("ip"):
@@ -147,9 +161,10 @@ class LiveStreams(support.SystemTest):
         self.assertGreater(sent["10.99.0.1:16104"]["lost"], 20)
 
     def test_a_stream_too_slow_for_a_free_run_loses_and_the_files_are_the_same(self):
+        def run(send, out):
+            return self.run_launch(launch(send, rate="free", seconds=6, topics="[bow/*, nav/*]"), out=out, timeout=120)
         absent = self.free_port()
-        slow = self.run_launch(launch([receiver(absent, ["all", "wcd"], ", rate_mb_s: 0.01")], rate="free", seconds=6), out="slow", timeout=120)
-        none = self.run_launch(launch([], rate="free", seconds=6), out="none", timeout=120)
+        slow, none = run([receiver(absent, ["all", "wcd"], ", rate_mb_s: 0.01")], "slow"), run([], "none")
         self.assertEqual((slow.code, none.code), (0, 0), slow.stderr + none.stderr)
         self.assertGreater(streamed(slow.log("log"))[f"127.0.0.1:{absent}"]["lost"], 20)
         names = sorted(file.name for file in none.out.glob("0*"))
@@ -157,6 +172,14 @@ class LiveStreams(support.SystemTest):
         self.assertEqual({name for name in names if (none.out / name).read_bytes() != (slow.out / name).read_bytes()}, set())
         compared = self.tool("compare", none.out / "run.mcap", slow.out / "run.mcap")
         self.assertEqual(compared.returncode, 0, compared.stdout)
+        # Who converts the record sends nothing.
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as reader:
+            reader.bind(("127.0.0.1", absent))
+            done = self.tool("convert", slow.out, "--to", "all,wcd", self.folder / "converted", timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertRaises(BlockingIOError, reader.recv, 1, socket.MSG_DONTWAIT)
+        for file in none.out.glob("*.all"):
+            self.assertTrue((self.folder / "converted" / file.name).read_bytes() == file.read_bytes())
 
     def test_receivers_that_cannot_be_are_2_with_place_and_what_is_allowed(self):
         for send, message in (
@@ -175,13 +198,23 @@ class LiveStreams(support.SystemTest):
         self.assertIn("log: send[0].interface: cannot send to 239.255.77.7:16101 by the interface 203.0.113.7", missing.stderr)
 
 
-def datagrams(data):
-    """(type, bytes) of each of a .all file."""
-    offset = 0
+def all_datagrams(data):
+    """(type, bytes) of each."""
+    offset, found = 0, []
     while offset < len(data):
         length = 4 + int.from_bytes(data[offset:offset + 4], "little")
-        yield data[offset + 5:offset + 6], data[offset:offset + length]
+        found.append((data[offset + 5:offset + 6], data[offset:offset + length]))
         offset += length
+    return found
+
+
+def kmall_datagrams(data):
+    offset, found = 0, []
+    while offset < len(data):
+        length = max(24, int.from_bytes(data[offset:offset + 4], "little"))
+        found.append((data[offset + 4:offset + 8], data[offset:offset + length]))
+        offset += length
+    return found
 
 
 if __name__ == "__main__":
