@@ -21,6 +21,9 @@ struct NavFeedParameters {
   int pose_rate_hz = 100;
   double delay_s = 2.5;
   double fastest_mps = 30.0;
+  double time_jump_s = 5.0;
+  double straight_on_s = 10.0;
+  double attitude_gap_s = 3.0;
   frames::Vec3 antenna_body_m = frames::Vec3::Zero();
   Height height = Height::kWater;
 
@@ -34,7 +37,16 @@ struct NavFeedParameters {
           "delay of the vehicle behind the feed; with less than two intervals between fixes its velocity jumps as they "
           "come",
           self.delay_s);
-    visit("fastest_mps", "m/s", in(0.1, 1000), "fixes that ask for more are not accepted", self.fastest_mps);
+    visit("fastest_mps", "m/s", in(0.1, 1000), "a fix that asks for more counts only when others agree with it",
+          self.fastest_mps);
+    visit("time_jump_s", "s", in(0.1, 600),
+          "a fix whose time is farther from its arrival than this counts only when others agree with it",
+          self.time_jump_s);
+    visit("straight_on_s", "s", in(0, 3600),
+          "time for which the vehicle goes straight on without fixes, before it stays where it is", self.straight_on_s);
+    visit("attitude_gap_s", "s", in(0.05, 60),
+          "samples of roll, pitch, heading and heave that are farther apart are not joined: the older one is held",
+          self.attitude_gap_s);
     visit("antenna_position_m", "m", in(-500, 500),
           "the place on the body that GGA is of: forward, starboard, down (up is negative)", self.antenna_body_m);
     visit("height", "", one_of({{"water", Height::kWater}, {"gga", Height::kGga}}),

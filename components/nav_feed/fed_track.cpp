@@ -1,7 +1,7 @@
 #include "components/nav_feed/fed_track.h"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "components/errors/overloaded.h"
 #include "kernels/vehicle/vertical/reduction.h"
@@ -9,19 +9,37 @@
 namespace ensonify {
 namespace {
 
-constexpr double kDay_s = 86400.0;
+std::string distance_text(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, metres < 1e3 ? "%.0f m" : "%.1f km", metres < 1e3 ? metres : metres / 1e3);
+  return text;
+}
 
-/// Outside what is known an attitude stays; only the way goes on.
-motion::Moving held(const motion::SampledCurve& curve, double t_s) {
-  if (curve.size() == 0) return {};
-  const bool known = t_s >= curve.oldest_s() && t_s <= curve.newest_s();
-  return known ? curve.at(t_s) : motion::Moving{curve.at(std::clamp(t_s, curve.oldest_s(), curve.newest_s())).value};
+std::string ahead_text(double ahead_s) { return duration_text(ahead_s) + (ahead_s > 0.0 ? " ahead" : " behind"); }
+
+/// Zero where nothing has come.
+motion::Moving value_at(const motion::GappedCurve& curve, double t_s) {
+  return curve.empty() ? motion::Moving{} : curve.at(t_s);
+}
+
+void add_cause(std::string& causes, const std::string& cause) {
+  if (!cause.empty()) causes += (causes.empty() ? "" : "; ") + cause;
 }
 
 }  // namespace
 
 FedTrack::FedTrack(const NavFeedConfig& config, const frames::LocalProjection& world, Count count)
-    : config_(config), world_(world), count_(std::move(count)) {}
+    : config_(config),
+      world_(world),
+      count_(std::move(count)),
+      trial_({config.time_jump_s, config.fastest_mps}),
+      east_m_({config.straight_on_s, config.straight_on_s}),
+      north_m_({config.straight_on_s, config.straight_on_s}),
+      heading_rad_({config.attitude_gap_s, 0.0}),
+      roll_rad_({config.attitude_gap_s, 0.0}),
+      pitch_rad_({config.attitude_gap_s, 0.0}),
+      heave_m_({config.attitude_gap_s, 0.0}),
+      mean_height_m_({config.straight_on_s, 0.0}) {}
 
 void FedTrack::take(std::string_view text, SimTime now) {
   nmea::for_each_line(text, [&](std::string_view line) {
@@ -34,48 +52,86 @@ void FedTrack::take(std::string_view text, SimTime now) {
   });
 }
 
-double FedTrack::unwrapped_s(double time_of_day_s) const {
-  if (!anchor_utc_s_) return time_of_day_s;
-  const double days = std::round((sentence_utc_s_ - time_of_day_s) / kDay_s);
-  return time_of_day_s + kDay_s * days;
-}
-
-void FedTrack::set_utc(double utc_s, SimTime now) {
-  sentence_utc_s_ = utc_s;
-  sentence_at_ = now;
-}
-
 void FedTrack::take(const nmea::Fix& fix, SimTime now) {
   if (fix.quality == 0) return count_("fixes_invalid");
+  const ArrivedFix found = arrived(fix, now);
+  if (!(found.position_enu_m.head<2>().norm() < kFarAway_m)) return count_("fixes_far_from_the_site");
+  if (!east_m_.empty() && base_.run_s(fix.time_s, seconds(now)) <= east_m_.newest_s() &&
+      std::abs(base_.ahead_s(fix.time_s, seconds(now))) <= config_.time_jump_s) {
+    return count_("sentences_late");
+  }
+  if (!goes_on(found)) return try_fix(found);
+  trial_.clear();
+  follow(found);
+}
+
+ArrivedFix FedTrack::arrived(const nmea::Fix& fix, SimTime now) {
   const frames::Vec2 place = world_.enu_of({fix.latitude_deg, fix.longitude_deg});
-  if (!(place.norm() < kFarAway_m)) return count_("fixes_far_from_the_site");
-  const double utc_s = unwrapped_s(fix.time_s);
-  if (east_m_.size() > 0) {
-    const double since_s = utc_s - east_m_.newest_s();
-    if (since_s <= 0.0) return count_("sentences_late");
-    const frames::Vec2 way = place - frames::Vec2(east_m_.newest(), north_m_.newest());
-    if (way.norm() > config_.fastest_mps * since_s) return count_("fixes_beyond_the_fastest_speed");
+  if (fix.height_above_geoid_m && config_.height == NavFeedConfig::Height::kGga) {
+    known_height_m_ = *fix.height_above_geoid_m - vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
   }
-  if (!anchor_utc_s_) {
-    anchor_utc_s_ = utc_s;
-    anchor_ = now;
+  return {fix, {place.x(), place.y(), known_height_m_}, now};
+}
+
+bool FedTrack::goes_on(const ArrivedFix& found) {
+  if (east_m_.empty()) return false;
+  const double arrival_s = seconds(found.arrival), ahead_s = base_.ahead_s(found.fix.time_s, arrival_s);
+  if (std::abs(ahead_s) > config_.time_jump_s) {
+    count_("fixes_at_another_time");
+    time_jumped_ = true;
+    jump_ = std::string("time jumped ") + (ahead_s > 0.0 ? "ahead" : "back") + " by " + duration_text(ahead_s);
+    return false;
   }
-  set_utc(utc_s, now);
-  east_m_.push(utc_s, place.x());
-  north_m_.push(utc_s, place.y());
+  const double since_s = arrival_s + ahead_s - east_m_.newest_s();
+  const double way_m = (found.position_enu_m - newest_enu_m_).norm();
+  if (way_m > config_.fastest_mps * since_s) {
+    count_("fixes_beyond_the_fastest_speed");
+    time_jumped_ = false;
+    jump_ = "place jumped by " + distance_text(way_m);
+    return false;
+  }
+  return true;
+}
+
+/// A first fix, or one that does not go on from those before it.
+void FedTrack::try_fix(const ArrivedFix& found) {
+  const bool first = east_m_.empty();
+  for (std::size_t given_up = trial_.add(found); given_up > 0; --given_up) count_("fixes_that_none_agreed_with");
+  const ArrivedFix& oldest = trial_.fixes().front();
+  if (first) base_.bind(oldest.fix.time_s, seconds(oldest.arrival));
+  if (!trial_.is_accepted()) return;
+  if (!first) {
+    count_(time_jumped_ ? "time_jumps" : "place_jumps");
+    if (time_jumped_) base_.bind(oldest.fix.time_s, seconds(oldest.arrival));
+    motion_ahead_s_.reset();
+    settle_height();
+    for (auto* curve : {&east_m_, &north_m_, &mean_height_m_}) curve->interrupt();
+    jumped_at_s_ = base_.run_s(oldest.fix.time_s, seconds(oldest.arrival));
+  }
+  for (const ArrivedFix& fix : trial_.fixes()) follow(fix);
+  trial_.clear();
+}
+
+void FedTrack::follow(const ArrivedFix& found) {
+  const nmea::Fix& fix = found.fix;
+  const double t_s = base_.follow(fix.time_s, seconds(found.arrival));
+  if (!east_m_.push(t_s, found.position_enu_m.x())) return count_("sentences_late");
+  north_m_.push(t_s, found.position_enu_m.y());
+  newest_enu_m_ = found.position_enu_m;
   count_("fixes_taken");
-  const double datum_above_geoid_m = vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
   if (config_.height == NavFeedConfig::Height::kGga) {
     settle_height();
     if (!fix.height_above_geoid_m) count_("fixes_without_height");
-    if (fix.height_above_geoid_m) unsettled_ = {utc_s, *fix.height_above_geoid_m - datum_above_geoid_m};
+    if (fix.height_above_geoid_m) unsettled_ = {t_s, found.position_enu_m.z()};
   }
 
   fix_.emplace();
-  fix_->stamp_ns = (anchor_ + from_seconds(utc_s - *anchor_utc_s_ + config_.delay_s)).count();
+  fix_->stamp_ns = from_seconds(t_s + config_.delay_s).count();
+  const frames::Vec2 place = newest_enu_m_.head<2>();
   fix_->position_enu_m = {place.x(), place.y(), 0.0};
   if (fix.height_above_geoid_m) {
-    fix_->position_enu_m[2] = *fix.height_above_geoid_m - datum_above_geoid_m;
+    fix_->position_enu_m[2] =
+        *fix.height_above_geoid_m - vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
     fix_->height_above_geoid_m = *fix.height_above_geoid_m;
   }
   fix_->latitude_deg = fix.latitude_deg;
@@ -87,50 +143,59 @@ void FedTrack::take(const nmea::Fix& fix, SimTime now) {
 /// The height of the fix before: all that was said of its time has come with the one after it.
 void FedTrack::settle_height() {
   if (!unsettled_) return;
-  const auto [utc_s, above_datum_m] = *std::exchange(unsettled_, std::nullopt);
-  const frames::Attitude tilt{0.0, held(pitch_rad_, utc_s).value, held(roll_rad_, utc_s).value};
+  const auto [t_s, above_datum_m] = *std::exchange(unsettled_, std::nullopt);
+  const frames::Attitude tilt{0.0, value_at(pitch_rad_, t_s).value, value_at(roll_rad_, t_s).value};
   const double antenna_above_m = (frames::enu_from_body(tilt) * config_.antenna_body_m).z();
-  mean_height_m_.push(utc_s, above_datum_m - antenna_above_m - held(heave_m_, utc_s).value);
+  mean_height_m_.push(t_s, above_datum_m - antenna_above_m - value_at(heave_m_, t_s).value);
 }
 
-motion::Moving FedTrack::height_m(double t_s) const { return held(mean_height_m_, t_s) + held(heave_m_, t_s); }
+motion::Moving FedTrack::height_m(double t_s) const { return value_at(mean_height_m_, t_s) + value_at(heave_m_, t_s); }
 
-bool FedTrack::push_heading(double utc_s, double true_heading_rad) {
-  const frames::Vec2 place(east_m_.newest(), north_m_.newest());
-  const double grid_rad = true_heading_rad - world_.convergence_rad(place);
-  const double before_rad = heading_rad_.size() == 0 ? grid_rad : heading_rad_.newest();
-  return heading_rad_.push(utc_s, before_rad + frames::wrap_pi(grid_rad - before_rad));
+bool FedTrack::push_heading(double t_s, double true_heading_rad) {
+  const frames::Vec3 place = trial_.is_on() && east_m_.empty() ? trial_.fixes().back().position_enu_m : newest_enu_m_;
+  const double grid_rad = true_heading_rad - world_.convergence_rad(place.head<2>());
+  const double before_rad = heading_rad_.empty() ? grid_rad : heading_rad_.newest();
+  return heading_rad_.push(t_s, before_rad + frames::wrap_pi(grid_rad - before_rad));
 }
 
 void FedTrack::take(const nmea::Heading& heading, SimTime now) {
-  if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
-  heading_by_gyro_ = true;
-  count_(push_heading(utc_s_at(now), heading.true_heading_rad) ? "headings_taken" : "sentences_late");
+  if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
+  const double t_s = untimed_s(now);
+  gyro_newest_s_ = t_s;
+  count_(push_heading(t_s, heading.true_heading_rad) ? "headings_taken" : "sentences_late");
 }
 
 void FedTrack::take(const nmea::Motion& motion, SimTime now) {
-  if (!anchor_utc_s_) return count_("sentences_before_the_first_fix");
-  const double utc_s = motion.time_s ? unwrapped_s(*motion.time_s) : utc_s_at(now);
-  if (!roll_rad_.push(utc_s, motion.roll_rad)) return count_("sentences_late");
-  pitch_rad_.push(utc_s, motion.pitch_rad);
-  heave_m_.push(utc_s, motion.heave_m);
-  if (motion.true_heading_rad && !heading_by_gyro_) push_heading(utc_s, *motion.true_heading_rad);
-  if (motion.time_s) set_utc(utc_s, now);
+  if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
+  if (motion.time_s) {
+    const double ahead_s = base_.ahead_s(*motion.time_s, seconds(now));
+    motion_ahead_s_.reset();
+    if (std::abs(ahead_s) > config_.time_jump_s) {
+      motion_ahead_s_ = ahead_s;
+      return count_("motions_at_another_time");
+    }
+  }
+  const double t_s = motion.time_s ? base_.follow(*motion.time_s, seconds(now)) : untimed_s(now);
+  if (!roll_rad_.push(t_s, motion.roll_rad)) return count_("sentences_late");
+  pitch_rad_.push(t_s, motion.pitch_rad);
+  heave_m_.push(t_s, motion.heave_m);
+  const bool by_gyro = gyro_newest_s_ && t_s - *gyro_newest_s_ <= config_.attitude_gap_s;
+  if (motion.true_heading_rad && !by_gyro) push_heading(t_s, *motion.true_heading_rad);
   count_("motions_taken");
 }
 
 /// Whether all that a pose takes has come once.
 bool FedTrack::is_complete() const {
-  const bool high = config_.height == NavFeedConfig::Height::kWater || mean_height_m_.size() > 0;
-  return anchor_utc_s_ && heading_rad_.size() > 0 && high;
+  const bool high = config_.height == NavFeedConfig::Height::kWater || !mean_height_m_.empty();
+  return !east_m_.empty() && !heading_rad_.empty() && high;
 }
 
 std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
   if (!is_complete() || delayed_s(now) < east_m_.oldest_s()) return std::nullopt;
   const double t_s = delayed_s(now);
   // Off a body that lies level at the world's origin with its bow to north. First as if it were at the antenna.
-  const motion::Excursion way{north_m_.at(t_s),     east_m_.at(t_s),       height_m(t_s),
-                              held(roll_rad_, t_s), held(pitch_rad_, t_s), held(heading_rad_, t_s)};
+  const motion::Excursion way{north_m_.at(t_s),         east_m_.at(t_s),           height_m(t_s),
+                              value_at(roll_rad_, t_s), value_at(pitch_rad_, t_s), heading_rad_.at(t_s)};
   frames::MovingPose moving = motion::superimpose(frames::MovingPose{}, way);
   const frames::Vec3 &rate = moving.angular_rate_body_radps, &lever = config_.antenna_body_m;
   const auto across = [&](const frames::Vec3& body) { return (moving.pose.enu_from_body * body).head<2>().eval(); };
@@ -143,11 +208,40 @@ std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
 
 bool FedTrack::lacks_data(SimTime now) const { return !is_complete() || delayed_s(now) > east_m_.newest_s(); }
 
-void FedTrack::forget(SimTime now) {
-  if (!anchor_utc_s_) return;
+std::string FedTrack::lack_of_fixes(double t_s) const {
+  if (east_m_.empty()) {
+    return trial_.is_on() ? "no place yet: a first fix counts when three in a row agree"
+                          : "no place yet: no fix has come";
+  }
+  const double since_s = t_s - east_m_.newest_s();
+  if (since_s <= 0.0) return "";
+  return "no fix for " + duration_text(since_s) +
+         (since_s <= config_.straight_on_s ? ": the vehicle goes straight on" : ": the vehicle stays where it is");
+}
+
+std::string FedTrack::trouble(SimTime now) const {
   const double t_s = delayed_s(now);
+  std::string causes;
+  if (!east_m_.empty() && trial_.is_on()) add_cause(causes, jump_ + ": not followed unless three fixes in a row agree");
+  if (!trial_.is_on() && t_s < jumped_at_s_) add_cause(causes, jump_ + ": the vehicle has not come there yet");
+  add_cause(causes, lack_of_fixes(t_s));
+  if (east_m_.empty()) return causes;
+  if (heading_rad_.empty()) add_cause(causes, "no heading has come");
+  if (motion_ahead_s_ && !(trial_.is_on() && time_jumped_)) {
+    add_cause(causes, "motion is " + ahead_text(*motion_ahead_s_) + " of the fixes: not taken");
+  }
+  const auto held = [&](const motion::GappedCurve& curve, const std::string& what) {
+    if (curve.empty() || t_s - curve.newest_s() <= config_.attitude_gap_s) return;
+    add_cause(causes, "no " + what + " for " + duration_text(t_s - curve.newest_s()) + ": held");
+  };
+  held(heading_rad_, "heading");
+  held(roll_rad_, "roll, pitch and heave");
+  return causes;
+}
+
+void FedTrack::forget(SimTime now) {
   for (auto* curve : {&east_m_, &north_m_, &heading_rad_, &roll_rad_, &pitch_rad_, &heave_m_, &mean_height_m_}) {
-    curve->forget_before(t_s);
+    curve->forget_before(delayed_s(now));
   }
 }
 

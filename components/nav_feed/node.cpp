@@ -35,12 +35,9 @@ SimTime NavFeedNode::step(SimTime now) {
   if (!track_) return poses_due_.next();
   receive(now);
   if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, now)));
-  if (track_->lacks_data(now)) {
-    ports_.count("poses_guessed");
-    ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
-  } else {
-    ports_.health("ok", "");
-  }
+  if (track_->lacks_data(now)) ports_.count("poses_guessed");
+  const std::string trouble = track_->trouble(now);
+  ports_.health(trouble.empty() ? "ok" : "degraded", trouble);
   track_->forget(now);
   return poses_due_.next();
 }
