@@ -9,13 +9,19 @@
 namespace ensonify {
 namespace {
 
+constexpr double kDay_s = 86400.0;
+constexpr double kSameTime_s = 1e-4;      // times have three decimals at most
+constexpr double kAccuracyLasts_s = 2.5;  // GST comes before or behind its GGA, once a second
+constexpr SimTime kGgaIsGone = std::chrono::seconds(5);
+constexpr SimTime kDateJumpIsNamed = std::chrono::seconds(5);
+
 std::string distance_text(double metres) {
   char text[32];
   std::snprintf(text, sizeof text, metres < 1e3 ? "%.0f m" : "%.1f km", metres < 1e3 ? metres : metres / 1e3);
   return text;
 }
 
-std::string ahead_text(double ahead_s) { return duration_text(ahead_s) + (ahead_s > 0.0 ? " ahead" : " behind"); }
+std::string ahead_text(double ahead_s) { return duration_text(ahead_s) + (ahead_s > 0.0 ? " ahead of" : " behind"); }
 
 /// Zero where nothing has come.
 motion::Moving value_at(const motion::GappedCurve& curve, double t_s) {
@@ -47,22 +53,77 @@ void FedTrack::take(std::string_view text, SimTime now) {
                           [&](const nmea::Empty&) { count_("sentences_without_data"); },
                           [&](const nmea::BadChecksum&) { count_("sentences_with_bad_checksum"); },
                           [&](const nmea::Malformed&) { count_("sentences_malformed"); },
-                          [&](const auto& sentence) { take(sentence, now); }},
+                          [&](const auto& sentence) { use(sentence, now); }},
                nmea::read_navigation(line));
   });
 }
 
-void FedTrack::take(const nmea::Fix& fix, SimTime now) {
-  if (fix.quality == 0) return count_("fixes_invalid");
+void FedTrack::refuse(const std::string& counter, const std::string& why) {
+  count_(counter);
+  refusal_ = why + ": not taken";
+}
+
+void FedTrack::use(const nmea::Fix& fix, SimTime now) {
+  gga_at_ = now;
+  use_fix(fix, now);
+}
+
+void FedTrack::use(const nmea::MinimumFix& minimum, SimTime now) {
+  if (minimum.fix.quality > 0 && minimum.date) use_date(*minimum.date, minimum.fix.time_s, now);
+  if (gga_at_ && now - *gga_at_ < kGgaIsGone) return count_("sentences_read_only");
+  use_fix(minimum.fix, now);
+}
+
+void FedTrack::use_fix(const nmea::Fix& fix, SimTime now) {
+  if (fix.quality == 0) return refuse("fixes_invalid", "fixes have quality 0");
+  if (datum_ != "W84") return refuse("fixes_on_another_datum", "fixes are on datum " + datum_ + ", not W84");
   const ArrivedFix found = arrived(fix, now);
-  if (!(found.position_enu_m.head<2>().norm() < kFarAway_m)) return count_("fixes_far_from_the_site");
-  if (!east_m_.empty() && base_.run_s(fix.time_s, seconds(now)) <= east_m_.newest_s() &&
-      std::abs(base_.ahead_s(fix.time_s, seconds(now))) <= config_.time_jump_s) {
-    return count_("sentences_late");
+  const double off_m = found.position_enu_m.head<2>().norm();
+  if (!(off_m < kFarAway_m)) {
+    const bool may_swap = std::abs(fix.longitude_deg) <= 90.0;
+    if (may_swap && world_.enu_of({fix.longitude_deg, fix.latitude_deg}).norm() < kFarAway_m) {
+      return refuse("fixes_with_latitude_and_longitude_swapped", "latitude and longitude are swapped");
+    }
+    return refuse("fixes_far_from_the_site", "fixes are " + distance_text(off_m) + " from the site");
   }
+  if (!east_m_.empty() && std::abs(base_.ahead_s(fix.time_s, seconds(now))) <= config_.time_jump_s) {
+    const double since_s = base_.run_s(fix.time_s, seconds(now)) - east_m_.newest_s();
+    if (std::abs(since_s) < kSameTime_s) return count_("fixes_double");
+    if (since_s < 0.0) return count_("sentences_late");
+  }
+  refusal_.clear();
   if (!goes_on(found)) return try_fix(found);
   trial_.clear();
   follow(found);
+}
+
+void FedTrack::use(const nmea::Datum& datum, SimTime) {
+  datum_ = datum.code;
+  count_("datums_taken");
+}
+
+void FedTrack::use(const nmea::DateAndTime& date, SimTime now) {
+  use_date(date.date, date.time_s, now);
+  clock_ahead_s_.reset();
+  if (!base_.is_bound()) return;
+  const double ahead_s = base_.ahead_s(date.time_s, seconds(now));
+  if (std::abs(ahead_s) <= config_.time_jump_s) return;
+  clock_ahead_s_ = ahead_s;
+  count_("clocks_at_another_time");
+}
+
+/// Dates are not used: a time is the day's nearest to its arrival. What goes wrong with them is reported.
+void FedTrack::use_date(std::chrono::sys_days date, double time_of_day_s, SimTime now) {
+  const double unix_s = kDay_s * static_cast<double>(date.time_since_epoch().count()) + time_of_day_s;
+  const auto before = std::exchange(dated_, Dated{unix_s, now});
+  count_("dates_taken");
+  if (!before) return;
+  const double days = std::round((unix_s - before->unix_s - seconds(now - before->arrival)) / kDay_s);
+  if (days == 0.0) return;
+  count_("dates_jumped");
+  date_jumped_at_ = now;
+  date_jump_ = std::string("the date jumped ") + (days > 0.0 ? "ahead" : "back") + " by " +
+               std::to_string(std::abs(std::lround(days))) + " days: not used";
 }
 
 ArrivedFix FedTrack::arrived(const nmea::Fix& fix, SimTime now) {
@@ -134,6 +195,11 @@ void FedTrack::follow(const ArrivedFix& found) {
         *fix.height_above_geoid_m - vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
     fix_->height_above_geoid_m = *fix.height_above_geoid_m;
   }
+  fix_->geoid_above_ellipsoid_m = fix.geoid_above_ellipsoid_m.value_or(0.0);
+  if (accuracy_ && std::abs(time_of_day_step_s(accuracy_->time_s, fix.time_s)) < kAccuracyLasts_s) {
+    fix_->sigma_horizontal_m = std::hypot(accuracy_->latitude_m, accuracy_->longitude_m) / std::sqrt(2.0);
+    fix_->sigma_vertical_m = accuracy_->height_m.value_or(0.0);
+  }
   fix_->latitude_deg = fix.latitude_deg;
   fix_->longitude_deg = fix.longitude_deg;
   fix_->quality = fix.quality;
@@ -158,14 +224,14 @@ bool FedTrack::push_heading(double t_s, double true_heading_rad) {
   return heading_rad_.push(t_s, before_rad + frames::wrap_pi(grid_rad - before_rad));
 }
 
-void FedTrack::take(const nmea::Heading& heading, SimTime now) {
+void FedTrack::use(const nmea::Heading& heading, SimTime now) {
   if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
   const double t_s = untimed_s(now);
   gyro_newest_s_ = t_s;
   count_(push_heading(t_s, heading.true_heading_rad) ? "headings_taken" : "sentences_late");
 }
 
-void FedTrack::take(const nmea::Motion& motion, SimTime now) {
+void FedTrack::use(const nmea::Motion& motion, SimTime now) {
   if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
   if (motion.time_s) {
     const double ahead_s = base_.ahead_s(*motion.time_s, seconds(now));
@@ -176,12 +242,20 @@ void FedTrack::take(const nmea::Motion& motion, SimTime now) {
     }
   }
   const double t_s = motion.time_s ? base_.follow(*motion.time_s, seconds(now)) : untimed_s(now);
-  if (!roll_rad_.push(t_s, motion.roll_rad)) return count_("sentences_late");
-  pitch_rad_.push(t_s, motion.pitch_rad);
-  heave_m_.push(t_s, motion.heave_m);
+  const nmea::MotionQuality quality = motion.time_s ? nmea::MotionQuality{} : seapath_quality_;
+  bool any = false, late = false;
+  const auto push = [&](motion::GappedCurve& curve, const std::optional<double>& value, bool good) {
+    if (!value || !good) return;
+    (curve.push(t_s, *value) ? any : late) = true;
+  };
+  push(roll_rad_, motion.roll_rad, quality.roll_and_pitch);
+  push(pitch_rad_, motion.pitch_rad, quality.roll_and_pitch);
+  push(heave_m_, motion.heave_m, quality.heave);
   const bool by_gyro = gyro_newest_s_ && t_s - *gyro_newest_s_ <= config_.attitude_gap_s;
-  if (motion.true_heading_rad && !by_gyro) push_heading(t_s, *motion.true_heading_rad);
-  count_("motions_taken");
+  if (motion.true_heading_rad && quality.heading && !by_gyro) {
+    (push_heading(t_s, *motion.true_heading_rad) ? any : late) = true;
+  }
+  count_(any ? "motions_taken" : late ? "sentences_late" : "motions_without_use");
 }
 
 /// Whether all that a pose takes has come once.
@@ -224,18 +298,25 @@ std::string FedTrack::trouble(SimTime now) const {
   std::string causes;
   if (!east_m_.empty() && trial_.is_on()) add_cause(causes, jump_ + ": not followed unless three fixes in a row agree");
   if (!trial_.is_on() && t_s < jumped_at_s_) add_cause(causes, jump_ + ": the vehicle has not come there yet");
+  add_cause(causes, refusal_);
   add_cause(causes, lack_of_fixes(t_s));
+  if (now - date_jumped_at_ < kDateJumpIsNamed) add_cause(causes, date_jump_);
   if (east_m_.empty()) return causes;
   if (heading_rad_.empty()) add_cause(causes, "no heading has come");
   if (motion_ahead_s_ && !(trial_.is_on() && time_jumped_)) {
-    add_cause(causes, "motion is " + ahead_text(*motion_ahead_s_) + " of the fixes: not taken");
+    add_cause(causes, "motion is " + ahead_text(*motion_ahead_s_) + " the fixes: not taken");
+  }
+  if (clock_ahead_s_ && !(trial_.is_on() && time_jumped_)) {
+    add_cause(causes, "ZDA is " + ahead_text(*clock_ahead_s_) + " the fixes");
   }
   const auto held = [&](const motion::GappedCurve& curve, const std::string& what) {
     if (curve.empty() || t_s - curve.newest_s() <= config_.attitude_gap_s) return;
     add_cause(causes, "no " + what + " for " + duration_text(t_s - curve.newest_s()) + ": held");
   };
   held(heading_rad_, "heading");
-  held(roll_rad_, "roll, pitch and heave");
+  held(roll_rad_, "roll");
+  held(pitch_rad_, "pitch");
+  held(heave_m_, "heave");
   return causes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -42,9 +43,23 @@ class FedTrack {
   std::optional<msg::Position> take_fix() { return std::exchange(fix_, std::nullopt); }
 
  private:
-  void take(const nmea::Fix& fix, SimTime now);
-  void take(const nmea::Heading& heading, SimTime now);
-  void take(const nmea::Motion& motion, SimTime now);
+  void use(const nmea::Fix& fix, SimTime now);
+  void use(const nmea::MinimumFix& minimum, SimTime now);
+  void use(const nmea::Heading& heading, SimTime now);
+  void use(const nmea::Motion& motion, SimTime now);
+  void use(const nmea::MotionQuality& quality, SimTime) { seapath_quality_ = quality; }
+  void use(const nmea::FixAccuracy& accuracy, SimTime) { accuracy_ = accuracy; }
+  void use(const nmea::DateAndTime& date, SimTime now);
+  void use(const nmea::Datum& datum, SimTime now);
+  template <class Sentence>
+  void use(const Sentence&, SimTime) {  // of speeds, turn rates and depths: the vehicle follows its places
+    count_("sentences_read_only");
+  }
+
+  void use_fix(const nmea::Fix& fix, SimTime now);
+  void use_date(std::chrono::sys_days date, double time_of_day_s, SimTime now);
+  /// A fix that is not used at all, and why: health says so until one is used.
+  void refuse(const std::string& counter, const std::string& why);
 
   ArrivedFix arrived(const nmea::Fix& fix, SimTime now);
   /// Whether a fix goes on from those before it; if not, it is counted and the cause is kept.
@@ -70,9 +85,22 @@ class FedTrack {
   double jumped_at_s_ = 0.0;              // when the way goes on behind the jump
   bool time_jumped_ = false;              // fixes on trial have another time, not only another place
   double known_height_m_ = 0.0;           // of the last fix that gave one
+  std::string refusal_;                   // why the last fix was not used at all; "": it was
+  std::optional<double> clock_ahead_s_;   // of the last ZDA, if that is too much
   std::optional<double> motion_ahead_s_;  // of the last motion sentence, if that is too much for it to be taken
   std::optional<double> gyro_newest_s_;   // of HDT, which goes before headings of motion sentences
   frames::Vec3 newest_enu_m_ = frames::Vec3::Zero();  // of the newest fix that was followed
+  std::optional<SimTime> gga_at_;                     // its last arrival: RMC gives places only without it
+  std::optional<nmea::FixAccuracy> accuracy_;
+  std::string datum_ = "W84";  // of the fixes that come
+  nmea::MotionQuality seapath_quality_;
+  struct Dated {
+    double unix_s;
+    SimTime arrival;
+  };
+  std::optional<Dated> dated_;  // the last date and time
+  std::string date_jump_;       // what one was off by
+  SimTime date_jumped_at_{0};
   // In the run's seconds.
   motion::GappedCurve east_m_, north_m_, heading_rad_, roll_rad_, pitch_rad_, heave_m_;
   motion::GappedCurve mean_height_m_;  // above chart datum, of the reference point without heave; by GGA

@@ -61,7 +61,8 @@ TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
   fed.feed.take(heading(10.0), at_s(0));  // nothing gives what time that is
   for (int i = 0; i <= 6; ++i) fed.feed.take(fix(100 + i, i, 0.0) + heading(90.0), at_s(i));
   const auto before = fed.feed.at(at_s(6))->pose.position_enu_m;
-  fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPVTG,1,T") + sentence("GPHDT,,T") +
+  fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPXDR,C,12.0,C,AIR") +
+                    sentence("GPVTG,1,T,,M,4.0,N,7.4,K") + sentence("GPHDT,,T") +
                     sentence("GPGGA,000150.00,,,,,0,,,,M,,M,,") + sentence("HEHDT,999,T") + fix(105, 0.0, 0.0) +
                     fix(107, 500.0, 0.0) + fix(107, 200e3, 0.0),
                 at_s(6));
@@ -72,6 +73,7 @@ TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
                                             {"sentences_malformed", 2},
                                             {"sentences_with_bad_checksum", 1},
                                             {"sentences_of_other_kinds", 1},
+                                            {"sentences_read_only", 1},
                                             {"sentences_without_data", 1},
                                             {"fixes_invalid", 1},
                                             {"sentences_late", 1},
@@ -143,4 +145,70 @@ TEST_CASE("heights of the antenna give the reference point's, between fixes by h
   CHECK_THAT(fed.feed.take_fix()->position_enu_m[2], WithinAbs(above_datum(30.0) + up_m, 1e-3));
   fed.feed.take(sentence("GPGGA,000031.00,5312.6000000,N,00922.2000000,W,4,12,0.7,,M,,M,,"), at_s(31));
   CHECK(fed.counts["fixes_without_height"] == 1);
+}
+
+TEST_CASE("RMC gives places where no GGA comes, and none beside it") {
+  const auto rmc = [](int second, char status) {
+    return sentence("GPRMC," + time_of(100 + second) + "," + status + ",5312.60,N,00922.20,W,4.0,90.0,010826,,,A");
+  };
+  Fed alone, beside;
+  for (int i = 0; i <= 10; ++i) {
+    alone.feed.take(rmc(i, i == 5 ? 'V' : 'A') + heading(90.0), at_s(i));
+    beside.feed.take(fix(100 + i, 2.0 * i, 0.0) + rmc(i, 'A') + heading(90.0), at_s(i));
+  }
+  CHECK(alone.counts["fixes_taken"] == 10);
+  CHECK(alone.counts["fixes_invalid"] == 1);
+  CHECK(alone.feed.at(at_s(10)));
+  CHECK(beside.counts["fixes_taken"] == 11);
+  CHECK(beside.counts["sentences_read_only"] == 11);
+  for (int i = 11; i <= 30; ++i) beside.feed.take(rmc(i, 'A') + heading(90.0), at_s(i));  // GGA has stopped
+  CHECK(beside.counts["fixes_taken"] == 27);
+}
+
+TEST_CASE("fixes that cannot be used at all are named until one can be") {
+  Fed fed;
+  for (int i = 0; i <= 5; ++i) fed.feed.take(fix(100 + i, 0.0, 0.0) + heading(90.0), at_s(i));
+  fed.feed.take(sentence("GPDTM,999,,0.08,N,0.07,E,-47.7,W84") + fix(106, 0.0, 0.0), at_s(6));
+  CHECK(fed.counts["fixes_on_another_datum"] == 1);
+  CHECK(fed.feed.trouble(at_s(6)) == "fixes are on datum 999, not W84: not taken");
+  fed.feed.take(sentence("GPDTM,W84,,0.0,N,0.0,E,0.0,W84") + fix(107, 0.0, 0.0), at_s(7));
+  CHECK(fed.feed.trouble(at_s(7)) == "");
+  fed.feed.take(sentence("GPGGA,000148.000,0922.2000,S,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(8));
+  CHECK(fed.counts["fixes_with_latitude_and_longitude_swapped"] == 1);
+  CHECK(fed.feed.trouble(at_s(8)) == "latitude and longitude are swapped: not taken");
+  fed.feed.take(sentence("GPGGA,000149.000,4922.2000,N,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(9));
+  CHECK(fed.feed.trouble(at_s(9)).find("km from the site: not taken") != std::string::npos);
+  fed.feed.take(fix(110, 0.0, 0.0) + fix(110, 0.0, 0.0), at_s(10));
+  CHECK(fed.counts["fixes_double"] == 1);
+  CHECK(fed.feed.trouble(at_s(10)) == "");
+}
+
+TEST_CASE("what a motion sensor leaves blank or calls invalid is held, never zero") {
+  Fed fed;
+  const auto hpr = [](int second, const std::string& pitch, const std::string& roll) {
+    return sentence("PSAT,HPR," + time_of(100 + second) + ",90.00," + pitch + "," + roll + ",N");
+  };
+  for (int i = 0; i <= 10; ++i) fed.feed.take(fix(100 + i, 0.0, 0.0) + hpr(i, "1.50", i < 5 ? "3.00" : ""), at_s(i));
+  const auto attitude = [&] { return frames::attitude_of(fed.feed.at(at_s(12))->pose.enu_from_body); };
+  CHECK(attitude().pitch_rad == Approx(1.5 * kDegree));
+  CHECK(attitude().roll_rad == Approx(3.0 * kDegree));  // two baselines gave it once
+  CHECK(fed.feed.trouble(at_s(12)) == "no roll for 5.5 s: held");
+  Fed seapath;
+  for (int i = 0; i <= 10; ++i) {
+    seapath.feed.take(fix(100 + i, 0.0, 0.0) + sentence(i < 5 ? "PSXN,20,0,0,0,0" : "PSXN,20,0,0,2,0") +
+                          sentence(i < 5 ? "PSXN,23,3.00,1.00,90.00,0.10" : "PSXN,23,99.00,45.00,90.00,0.10"),
+                      at_s(i));
+  }
+  CHECK(frames::attitude_of(seapath.feed.at(at_s(12))->pose.enu_from_body).roll_rad == Approx(3.0 * kDegree));
+}
+
+TEST_CASE("a fix has the accuracy that GST gives of its time") {
+  Fed fed;
+  for (int i = 0; i <= 3; ++i) {
+    fed.feed.take(sentence("GPGST," + time_of(100 + i) + ",0.9,,,,0.03,0.04,0.06") + fix(100 + i, 0.0, 0.0), at_s(i));
+  }
+  const auto position = *fed.feed.take_fix();
+  CHECK(position.sigma_horizontal_m == Approx(0.05 / std::sqrt(2.0)));
+  CHECK(position.sigma_vertical_m == 0.06);
+  CHECK(position.geoid_above_ellipsoid_m == 50.0);
 }

@@ -67,8 +67,8 @@ TEST_CASE("a vessel's log is followed at its own times: places, and how much she
     const auto found = nmea::read_navigation(sentence);
     if (const auto* motion = std::get_if<nmea::Motion>(&found)) {
       motions_at_s.push_back(now_s);  // it has no time of its own
-      logged_heave_m.push_back(motion->heave_m);
-      logged_roll_rad.push_back(motion->roll_rad);
+      logged_heave_m.push_back(*motion->heave_m);
+      logged_roll_rad.push_back(*motion->roll_rad);
     }
     feed.forget(from_seconds(now_s));
   }

@@ -85,7 +85,7 @@ TEST_CASE("GPS time of one of two sources never takes the fixes along") {
   CHECK(sailing.follows(30));
 }
 
-TEST_CASE("dates that are 1,024 weeks old change nothing") {
+TEST_CASE("dates that are 1,024 weeks old change nothing, and health says it") {
   Sailing sailing;
   for (int i = 0; i <= 30; ++i) {
     const std::string time = time_of(kNoon_s + i);
@@ -96,6 +96,7 @@ TEST_CASE("dates that are 1,024 weeks old change nothing") {
     sailing.second(i);
   }
   CHECK(sailing.counts["fixes_taken"] == 31);
+  CHECK(sailing.counts["dates_jumped"] == 2);
   CHECK(sailing.feed.trouble(at_s(30)) == "");
   for (double t = 3.0; t < 30.0; t += 0.1) REQUIRE(sailing.follows(t));
 }
@@ -178,8 +179,8 @@ TEST_CASE("across a gap heave, roll and heading are held; the way goes on for it
   CHECK(sailing.feed.at(at_s(80))->velocity_enu_mps.norm() == 0.0);
   CHECK(sailing.feed.trouble(at_s(24.5)) == "no fix for 2.0 s: the vehicle goes straight on");
   CHECK(sailing.feed.trouble(at_s(82.5)) ==
-        "no fix for 1 min 0 s: the vehicle stays where it is; no heading for 1 min 0 s: held; no roll, pitch and heave "
-        "for 1 min 0 s: held");
+        "no fix for 1 min 0 s: the vehicle stays where it is; no heading for 1 min 0 s: held; no roll for 1 min 0 s: "
+        "held; no pitch for 1 min 0 s: held; no heave for 1 min 0 s: held");
   sailing.seconds_from(90, 110);
   for (double t = 82.5; t < 110.0; t += 0.05) REQUIRE(std::abs(sailing.position(t).z()) <= 0.51);
   CHECK(sailing.feed.trouble(at_s(110)) == "");
