@@ -1,35 +1,22 @@
 #include "components/nav_feed/fed_track.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "components/errors/overloaded.h"
+#include "components/nav_feed/wording.h"
 #include "kernels/vehicle/vertical/reduction.h"
 
 namespace ensonify {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-constexpr double kSameTime_s = 1e-4;      // times have three decimals at most
+constexpr double kSameTime_s = 0.5e-3;    // times have three decimals at most; it bounds what is kept
 constexpr double kAccuracyLasts_s = 2.5;  // GST comes before or behind its GGA, once a second
 constexpr SimTime kGgaIsGone = std::chrono::seconds(5);
-constexpr SimTime kDateJumpIsNamed = std::chrono::seconds(5);
-
-std::string distance_text(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, metres < 1e3 ? "%.0f m" : "%.1f km", metres < 1e3 ? metres : metres / 1e3);
-  return text;
-}
-
-std::string ahead_text(double ahead_s) { return duration_text(ahead_s) + (ahead_s > 0.0 ? " ahead of" : " behind"); }
 
 /// Zero where nothing has come.
 motion::Moving value_at(const motion::GappedCurve& curve, double t_s) {
   return curve.empty() ? motion::Moving{} : curve.at(t_s);
-}
-
-void add_cause(std::string& causes, const std::string& cause) {
-  if (!cause.empty()) causes += (causes.empty() ? "" : "; ") + cause;
 }
 
 }  // namespace
@@ -39,23 +26,32 @@ FedTrack::FedTrack(const NavFeedConfig& config, const frames::LocalProjection& w
       world_(world),
       count_(std::move(count)),
       trial_({config.time_jump_s, config.fastest_mps}),
+      of_source_(config.sources.size()),
       east_m_({config.straight_on_s, config.straight_on_s}),
       north_m_({config.straight_on_s, config.straight_on_s}),
       heading_rad_({config.attitude_gap_s, 0.0}),
       roll_rad_({config.attitude_gap_s, 0.0}),
       pitch_rad_({config.attitude_gap_s, 0.0}),
       heave_m_({config.attitude_gap_s, 0.0}),
-      mean_height_m_({config.straight_on_s, 0.0}) {}
+      mean_height_m_({config.straight_on_s, 0.0}) {
+  for (const FeedSource& source : config.sources) {
+    if (source.may_give_places()) antenna_body_m_ = source.antenna_body_m;
+  }
+}
 
-void FedTrack::take(std::string_view text, SimTime now) {
-  nmea::for_each_line(text, [&](std::string_view line) {
-    std::visit(Overloaded{[&](const nmea::Other&) { count_("sentences_of_other_kinds"); },
-                          [&](const nmea::Empty&) { count_("sentences_without_data"); },
-                          [&](const nmea::BadChecksum&) { count_("sentences_with_bad_checksum"); },
-                          [&](const nmea::Malformed&) { count_("sentences_malformed"); },
-                          [&](const auto& sentence) { use(sentence, now); }},
-               nmea::read_navigation(line));
-  });
+void FedTrack::take(const nmea::Navigation& said, const Origin& origin) {
+  std::visit(Overloaded{[&](const nmea::Other&) { count_("sentences_of_other_kinds"); },
+                        [&](const nmea::Empty&) { count_("sentences_without_data"); },
+                        [&](const nmea::BadChecksum&) { count_("sentences_with_bad_checksum"); },
+                        [&](const nmea::Malformed&) { count_("sentences_malformed"); },
+                        [&](const auto& sentence) { use(sentence, origin); }},
+             said);
+}
+
+double FedTrack::timed_s(double time_of_day_s, const Origin& origin) {
+  const double arrival_s = seconds(origin.arrival), t_s = base_.follow(time_of_day_s, arrival_s);
+  of_source_[origin.source].ahead_s = t_s - arrival_s;
+  return t_s;
 }
 
 void FedTrack::refuse(const std::string& counter, const std::string& why) {
@@ -63,21 +59,25 @@ void FedTrack::refuse(const std::string& counter, const std::string& why) {
   refusal_ = why + ": not taken";
 }
 
-void FedTrack::use(const nmea::Fix& fix, SimTime now) {
-  gga_at_ = now;
-  use_fix(fix, now);
+void FedTrack::use(const nmea::Fix& fix, const Origin& origin) {
+  gga_at_ = origin.arrival;
+  use_fix(fix, origin);
 }
 
-void FedTrack::use(const nmea::MinimumFix& minimum, SimTime now) {
-  if (minimum.fix.quality > 0 && minimum.date) use_date(*minimum.date, minimum.fix.time_s, now);
-  if (gga_at_ && now - *gga_at_ < kGgaIsGone) return count_("sentences_read_only");
-  use_fix(minimum.fix, now);
+void FedTrack::use(const nmea::MinimumFix& minimum, const Origin& origin) {
+  if (minimum.fix.quality > 0 && minimum.date) use_date(*minimum.date, minimum.fix.time_s, origin.arrival);
+  if (gga_at_ && origin.arrival - *gga_at_ < kGgaIsGone) return count_("sentences_read_only");
+  use_fix(minimum.fix, origin);
 }
 
-void FedTrack::use_fix(const nmea::Fix& fix, SimTime now) {
+void FedTrack::use_fix(nmea::Fix fix, const Origin& origin) {
+  const double arrival_s = seconds(origin.arrival);
+  if (config_.sources[origin.source].time_scale == FeedSource::TimeScale::kNone) {
+    fix.time_s = arrival_s - kDay_s * std::floor(arrival_s / kDay_s);
+  }
   if (fix.quality == 0) return refuse("fixes_invalid", "fixes have quality 0");
   if (datum_ != "W84") return refuse("fixes_on_another_datum", "fixes are on datum " + datum_ + ", not W84");
-  const ArrivedFix found = arrived(fix, now);
+  const ArrivedFix found = arrived(fix, origin);
   const double off_m = found.position_enu_m.head<2>().norm();
   if (!(off_m < kFarAway_m)) {
     const bool may_swap = std::abs(fix.longitude_deg) <= 90.0;
@@ -86,8 +86,8 @@ void FedTrack::use_fix(const nmea::Fix& fix, SimTime now) {
     }
     return refuse("fixes_far_from_the_site", "fixes are " + distance_text(off_m) + " from the site");
   }
-  if (!east_m_.empty() && std::abs(base_.ahead_s(fix.time_s, seconds(now))) <= config_.time_jump_s) {
-    const double since_s = base_.run_s(fix.time_s, seconds(now)) - east_m_.newest_s();
+  if (!east_m_.empty() && std::abs(base_.ahead_s(fix.time_s, arrival_s)) <= config_.time_jump_s) {
+    const double since_s = base_.run_s(fix.time_s, arrival_s) - east_m_.newest_s();
     if (std::abs(since_s) < kSameTime_s) return count_("fixes_double");
     if (since_s < 0.0) return count_("sentences_late");
   }
@@ -97,16 +97,16 @@ void FedTrack::use_fix(const nmea::Fix& fix, SimTime now) {
   follow(found);
 }
 
-void FedTrack::use(const nmea::Datum& datum, SimTime) {
+void FedTrack::use(const nmea::Datum& datum, const Origin&) {
   datum_ = datum.code;
   count_("datums_taken");
 }
 
-void FedTrack::use(const nmea::DateAndTime& date, SimTime now) {
-  use_date(date.date, date.time_s, now);
+void FedTrack::use(const nmea::DateAndTime& date, const Origin& origin) {
+  use_date(date.date, date.time_s, origin.arrival);
   clock_ahead_s_.reset();
   if (!base_.is_bound()) return;
-  const double ahead_s = base_.ahead_s(date.time_s, seconds(now));
+  const double ahead_s = base_.ahead_s(date.time_s, seconds(origin.arrival));
   if (std::abs(ahead_s) <= config_.time_jump_s) return;
   clock_ahead_s_ = ahead_s;
   count_("clocks_at_another_time");
@@ -126,12 +126,19 @@ void FedTrack::use_date(std::chrono::sys_days date, double time_of_day_s, SimTim
                std::to_string(std::abs(std::lround(days))) + " days: not used";
 }
 
-ArrivedFix FedTrack::arrived(const nmea::Fix& fix, SimTime now) {
+ArrivedFix FedTrack::arrived(const nmea::Fix& fix, const Origin& origin) {
   const frames::Vec2 place = world_.enu_of({fix.latitude_deg, fix.longitude_deg});
-  if (fix.height_above_geoid_m && config_.height == NavFeedConfig::Height::kGga) {
-    known_height_m_ = *fix.height_above_geoid_m - vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
+  ArrivedFix found{fix, {place.x(), place.y(), 0.0}, origin.arrival, origin.source};
+  if (fix.height_above_geoid_m && config_.sources[origin.source].heights_are_of_ellipsoid()) {
+    found.fix.height_above_geoid_m = *fix.height_above_geoid_m + fix.geoid_above_ellipsoid_m.value_or(0.0) -
+                                     config_.datums.geoid_above_ellipsoid.at(place);
   }
-  return {fix, {place.x(), place.y(), known_height_m_}, now};
+  if (fix.height_above_geoid_m && config_.height == NavFeedConfig::Height::kGga) {
+    known_height_m_ =
+        *found.fix.height_above_geoid_m - vertical::geoid_height_m(config_.datums, {place.x(), place.y(), 0.0});
+  }
+  found.position_enu_m.z() = known_height_m_;
+  return found;
 }
 
 bool FedTrack::goes_on(const ArrivedFix& found) {
@@ -175,7 +182,7 @@ void FedTrack::try_fix(const ArrivedFix& found) {
 
 void FedTrack::follow(const ArrivedFix& found) {
   const nmea::Fix& fix = found.fix;
-  const double t_s = base_.follow(fix.time_s, seconds(found.arrival));
+  const double t_s = timed_s(fix.time_s, {found.arrival, found.source});
   if (!east_m_.push(t_s, found.position_enu_m.x())) return count_("sentences_late");
   north_m_.push(t_s, found.position_enu_m.y());
   newest_enu_m_ = found.position_enu_m;
@@ -211,7 +218,7 @@ void FedTrack::settle_height() {
   if (!unsettled_) return;
   const auto [t_s, above_datum_m] = *std::exchange(unsettled_, std::nullopt);
   const frames::Attitude tilt{0.0, value_at(pitch_rad_, t_s).value, value_at(roll_rad_, t_s).value};
-  const double antenna_above_m = (frames::enu_from_body(tilt) * config_.antenna_body_m).z();
+  const double antenna_above_m = (frames::enu_from_body(tilt) * antenna_body_m_).z();
   mean_height_m_.push(t_s, above_datum_m - antenna_above_m - value_at(heave_m_, t_s).value);
 }
 
@@ -221,32 +228,34 @@ bool FedTrack::push_heading(double t_s, double true_heading_rad) {
   const frames::Vec3 place = trial_.is_on() && east_m_.empty() ? trial_.fixes().back().position_enu_m : newest_enu_m_;
   const double grid_rad = true_heading_rad - world_.convergence_rad(place.head<2>());
   const double before_rad = heading_rad_.empty() ? grid_rad : heading_rad_.newest();
+  if (!heading_rad_.empty() && t_s - heading_rad_.newest_s() < kSameTime_s) return false;
   return heading_rad_.push(t_s, before_rad + frames::wrap_pi(grid_rad - before_rad));
 }
 
-void FedTrack::use(const nmea::Heading& heading, SimTime now) {
+void FedTrack::use(const nmea::Heading& heading, const Origin& origin) {
   if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
-  const double t_s = untimed_s(now);
+  const double t_s = untimed_s(origin);
   gyro_newest_s_ = t_s;
   count_(push_heading(t_s, heading.true_heading_rad) ? "headings_taken" : "sentences_late");
 }
 
-void FedTrack::use(const nmea::Motion& motion, SimTime now) {
+void FedTrack::use(const nmea::Motion& motion, const Origin& origin) {
   if (!base_.is_bound()) return count_("sentences_before_the_first_fix");
   if (motion.time_s) {
-    const double ahead_s = base_.ahead_s(*motion.time_s, seconds(now));
+    const double ahead_s = base_.ahead_s(*motion.time_s, seconds(origin.arrival));
     motion_ahead_s_.reset();
     if (std::abs(ahead_s) > config_.time_jump_s) {
       motion_ahead_s_ = ahead_s;
       return count_("motions_at_another_time");
     }
   }
-  const double t_s = motion.time_s ? base_.follow(*motion.time_s, seconds(now)) : untimed_s(now);
-  const nmea::MotionQuality quality = motion.time_s ? nmea::MotionQuality{} : seapath_quality_;
+  const double t_s = motion.time_s ? timed_s(*motion.time_s, origin) : untimed_s(origin);
+  const nmea::MotionQuality quality = motion.time_s ? nmea::MotionQuality{} : of_source_[origin.source].quality;
   bool any = false, late = false;
   const auto push = [&](motion::GappedCurve& curve, const std::optional<double>& value, bool good) {
     if (!value || !good) return;
-    (curve.push(t_s, *value) ? any : late) = true;
+    const bool soon = !curve.empty() && t_s - curve.newest_s() < kSameTime_s;
+    (!soon && curve.push(t_s, *value) ? any : late) = true;
   };
   push(roll_rad_, motion.roll_rad, quality.roll_and_pitch);
   push(pitch_rad_, motion.pitch_rad, quality.roll_and_pitch);
@@ -271,7 +280,7 @@ std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
   const motion::Excursion way{north_m_.at(t_s),         east_m_.at(t_s),           height_m(t_s),
                               value_at(roll_rad_, t_s), value_at(pitch_rad_, t_s), heading_rad_.at(t_s)};
   frames::MovingPose moving = motion::superimpose(frames::MovingPose{}, way);
-  const frames::Vec3 &rate = moving.angular_rate_body_radps, &lever = config_.antenna_body_m;
+  const frames::Vec3 &rate = moving.angular_rate_body_radps, &lever = antenna_body_m_;
   const auto across = [&](const frames::Vec3& body) { return (moving.pose.enu_from_body * body).head<2>().eval(); };
   moving.pose.position_enu_m.head<2>() -= across(lever);
   moving.velocity_enu_mps.head<2>() -= across(rate.cross(lever));
@@ -281,44 +290,6 @@ std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
 }
 
 bool FedTrack::lacks_data(SimTime now) const { return !is_complete() || delayed_s(now) > east_m_.newest_s(); }
-
-std::string FedTrack::lack_of_fixes(double t_s) const {
-  if (east_m_.empty()) {
-    return trial_.is_on() ? "no place yet: a first fix counts when three in a row agree"
-                          : "no place yet: no fix has come";
-  }
-  const double since_s = t_s - east_m_.newest_s();
-  if (since_s <= 0.0) return "";
-  return "no fix for " + duration_text(since_s) +
-         (since_s <= config_.straight_on_s ? ": the vehicle goes straight on" : ": the vehicle stays where it is");
-}
-
-std::string FedTrack::trouble(SimTime now) const {
-  const double t_s = delayed_s(now);
-  std::string causes;
-  if (!east_m_.empty() && trial_.is_on()) add_cause(causes, jump_ + ": not followed unless three fixes in a row agree");
-  if (!trial_.is_on() && t_s < jumped_at_s_) add_cause(causes, jump_ + ": the vehicle has not come there yet");
-  add_cause(causes, refusal_);
-  add_cause(causes, lack_of_fixes(t_s));
-  if (now - date_jumped_at_ < kDateJumpIsNamed) add_cause(causes, date_jump_);
-  if (east_m_.empty()) return causes;
-  if (heading_rad_.empty()) add_cause(causes, "no heading has come");
-  if (motion_ahead_s_ && !(trial_.is_on() && time_jumped_)) {
-    add_cause(causes, "motion is " + ahead_text(*motion_ahead_s_) + " the fixes: not taken");
-  }
-  if (clock_ahead_s_ && !(trial_.is_on() && time_jumped_)) {
-    add_cause(causes, "ZDA is " + ahead_text(*clock_ahead_s_) + " the fixes");
-  }
-  const auto held = [&](const motion::GappedCurve& curve, const std::string& what) {
-    if (curve.empty() || t_s - curve.newest_s() <= config_.attitude_gap_s) return;
-    add_cause(causes, "no " + what + " for " + duration_text(t_s - curve.newest_s()) + ": held");
-  };
-  held(heading_rad_, "heading");
-  held(roll_rad_, "roll");
-  held(pitch_rad_, "pitch");
-  held(heave_m_, "heave");
-  return causes;
-}
 
 void FedTrack::forget(SimTime now) {
   for (auto* curve : {&east_m_, &north_m_, &heading_rad_, &roll_rad_, &pitch_rad_, &heave_m_, &mean_height_m_}) {

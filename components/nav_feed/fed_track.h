@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "components/formats/nmea/navigation.h"
 #include "components/nav_feed/config.h"
@@ -26,8 +28,13 @@ class FedTrack {
   using Count = std::function<void(const std::string&)>;
   FedTrack(const NavFeedConfig& config, const frames::LocalProjection& world, Count count);
 
-  /// Lines that arrived by the event at `now`, good or bad. What cannot be used is counted, and changes nothing.
-  void take(std::string_view text, SimTime now);
+  /// When and from which of config.sources something came; its latency is taken off already.
+  struct Origin {
+    SimTime arrival{0};
+    std::size_t source = 0;
+  };
+  /// What a source says, good or bad. What cannot be used is counted, and changes nothing.
+  void take(const nmea::Navigation& said, const Origin& origin);
 
   /// The vehicle at `now`; nothing before its first fix is that old. Its height is heave alone, or with
   /// NavFeedConfig::Height::kGga that above chart datum.
@@ -43,33 +50,35 @@ class FedTrack {
   std::optional<msg::Position> take_fix() { return std::exchange(fix_, std::nullopt); }
 
  private:
-  void use(const nmea::Fix& fix, SimTime now);
-  void use(const nmea::MinimumFix& minimum, SimTime now);
-  void use(const nmea::Heading& heading, SimTime now);
-  void use(const nmea::Motion& motion, SimTime now);
-  void use(const nmea::MotionQuality& quality, SimTime) { seapath_quality_ = quality; }
-  void use(const nmea::FixAccuracy& accuracy, SimTime) { accuracy_ = accuracy; }
-  void use(const nmea::DateAndTime& date, SimTime now);
-  void use(const nmea::Datum& datum, SimTime now);
+  void use(const nmea::Fix& fix, const Origin& origin);
+  void use(const nmea::MinimumFix& minimum, const Origin& origin);
+  void use(const nmea::Heading& heading, const Origin& origin);
+  void use(const nmea::Motion& motion, const Origin& origin);
+  void use(const nmea::MotionQuality& quality, const Origin& origin) { of_source_[origin.source].quality = quality; }
+  void use(const nmea::FixAccuracy& accuracy, const Origin&) { accuracy_ = accuracy; }
+  void use(const nmea::DateAndTime& date, const Origin& origin);
+  void use(const nmea::Datum& datum, const Origin& origin);
   template <class Sentence>
-  void use(const Sentence&, SimTime) {  // of speeds, turn rates and depths: the vehicle follows its places
+  void use(const Sentence&, const Origin&) {  // of speeds, turn rates and depths: the vehicle follows its places
     count_("sentences_read_only");
   }
 
-  void use_fix(const nmea::Fix& fix, SimTime now);
+  void use_fix(nmea::Fix fix, const Origin& origin);
   void use_date(std::chrono::sys_days date, double time_of_day_s, SimTime now);
   /// A fix that is not used at all, and why: health says so until one is used.
   void refuse(const std::string& counter, const std::string& why);
 
-  ArrivedFix arrived(const nmea::Fix& fix, SimTime now);
+  ArrivedFix arrived(const nmea::Fix& fix, const Origin& origin);
   /// Whether a fix goes on from those before it; if not, it is counted and the cause is kept.
   bool goes_on(const ArrivedFix& fix);
   void try_fix(const ArrivedFix& fix);
   void follow(const ArrivedFix& fix);
   void settle_height();
 
-  /// Time of a sentence that gives none: that of the last one that did, and what has passed since.
-  double untimed_s(SimTime now) const { return seconds(now) + base_.last_ahead_s(); }
+  /// Time of what gives none: that of the last of its source that did, and what has passed since.
+  double untimed_s(const Origin& origin) const { return seconds(origin.arrival) + of_source_[origin.source].ahead_s; }
+  /// Time of what gives one.
+  double timed_s(double time_of_day_s, const Origin& origin);
   double delayed_s(SimTime now) const { return seconds(now) - config_.delay_s; }
   bool is_complete() const;
   motion::Moving height_m(double t_s) const;
@@ -93,7 +102,12 @@ class FedTrack {
   std::optional<SimTime> gga_at_;                     // its last arrival: RMC gives places only without it
   std::optional<nmea::FixAccuracy> accuracy_;
   std::string datum_ = "W84";  // of the fixes that come
-  nmea::MotionQuality seapath_quality_;
+  struct OfSource {
+    double ahead_s = 0.0;         // of its arrival, the last time that it gave
+    nmea::MotionQuality quality;  // PSXN,20
+  };
+  std::vector<OfSource> of_source_;
+  frames::Vec3 antenna_body_m_ = frames::Vec3::Zero();
   struct Dated {
     double unix_s;
     SimTime arrival;

@@ -97,7 +97,7 @@ TEST_CASE("without fixes it goes straight on and reports it; new fixes are follo
 TEST_CASE("fixes of an antenna off the reference point lead the reference point") {
   // In a circle of 50 m about the origin, 4 degrees a second to starboard, the antenna 6 m ahead and 2 m to starboard.
   NavFeedConfig config;
-  config.antenna_body_m = {6.0, 2.0, -5.0};
+  config.sources[0].antenna_body_m = {6.0, 2.0, -5.0};
   Fed fed{.config = config};
   const double rate = 4.0 * kDegree;
   const auto forward = [&](double t) { return frames::Vec2(std::cos(rate * t), -std::sin(rate * t)); };
@@ -123,7 +123,7 @@ TEST_CASE("heights of the antenna give the reference point's, between fixes by h
   // degrees; the antenna is 5 m up and 3 m to starboard.
   NavFeedConfig config;
   config.delay_s = 3.5;
-  config.antenna_body_m = {0.0, 3.0, -5.0};
+  config.sources[0].antenna_body_m = {0.0, 3.0, -5.0};
   config.height = NavFeedConfig::Height::kGga;
   config.datums.datum_above_geoid = vertical::Separation(-1.5);
   Fed fed{.config = config};

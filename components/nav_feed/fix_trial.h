@@ -13,6 +13,7 @@ struct ArrivedFix {
   nmea::Fix fix;
   frames::Vec3 position_enu_m = frames::Vec3::Zero();  // of the antenna; its height is 0 where heights do not count
   SimTime arrival{0};
+  std::size_t source = 0;
 };
 
 /// Fixes on trial: a first fix, and one at another time or place than those before it, counts only when others agree

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <vector>
 
-#include "components/nav_feed/fed_track.h"
+#include "components/nav_feed/testing/feed.h"
 
 using namespace ensonify;
 using Catch::WithinAbs;
@@ -40,7 +40,7 @@ TEST_CASE("a vessel's log is followed at its own times: places, and how much she
     return;
   }
   std::map<std::string, int> counts;
-  FedTrack feed({}, frames::LocalProjection({-22.0, -17.94}), [&](const std::string& what) { ++counts[what]; });
+  feed::FedBytes feed({}, frames::LocalProjection({-22.0, -17.94}), [&](const std::string& what) { ++counts[what]; });
   std::ifstream log(path);
   std::vector<double> logged_heave_m, heave_m, logged_roll_rad, roll_rad;
   std::vector<std::pair<double, msg::Position>> fixes;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "components/nav_feed/testing/feed.h"
+#include "components/nav_feed/wording.h"
 
 using namespace ensonify;
 using Catch::WithinAbs;

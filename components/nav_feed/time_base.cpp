@@ -1,7 +1,6 @@
 #include "components/nav_feed/time_base.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace ensonify {
 namespace {
@@ -43,20 +42,5 @@ double TimeBase::follow(double time_of_day_s, double arrival_s) {
 }
 
 double time_of_day_step_s(double from_s, double to_s) { return std::remainder(to_s - from_s, kDay_s); }
-
-std::string duration_text(double seconds) {
-  const double size = std::abs(seconds);
-  const auto whole = static_cast<long>(std::llround(size));
-  char text[48];
-  if (whole >= 3600) {
-    const long minutes = std::lround(size / 60.0);
-    std::snprintf(text, sizeof text, "%ld h %ld min", minutes / 60, minutes % 60);
-  } else if (whole >= 60) {
-    std::snprintf(text, sizeof text, "%ld min %ld s", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%.1f s", size);
-  }
-  return text;
-}
 
 }  // namespace ensonify

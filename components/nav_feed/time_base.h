@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 namespace ensonify {
 
 /// Binds the times of day that a source writes to the run's own time. A time is the day's nearest to when it arrived,
@@ -37,8 +34,5 @@ class TimeBase {
 
 /// From one time of day to a later one: -12 h to 12 h.
 double time_of_day_step_s(double from_s, double to_s);
-
-/// "3 h 0 min", "2 min 5 s", "18.0 s": of the magnitude.
-std::string duration_text(double seconds);
 
 }  // namespace ensonify

@@ -1,6 +1,9 @@
 #include "components/nav_feed/time_base.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "components/nav_feed/wording.h"
 
 using namespace ensonify;
 using Catch::WithinAbs;

@@ -1,5 +1,6 @@
 #include "components/formats/nmea/navigation.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -160,7 +161,10 @@ Navigation read_vbw(const Fields& f) {
 
 Navigation read_dtm(const Fields& f) {
   if (f[1].empty()) return Empty{};
-  return Datum{std::string(f[1])};
+  const bool is_code = f[1].size() <= 3 && std::all_of(f[1].begin(), f[1].end(), [](char c) {
+                         return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+                       });
+  return is_code ? Navigation{Datum{std::string(f[1])}} : Malformed{};
 }
 
 /// The fields of roll, pitch and heave, and that of heading. Field 0, the address: it has none.

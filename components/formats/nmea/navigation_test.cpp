@@ -150,7 +150,8 @@ TEST_CASE("what cannot be is malformed, and never a place or an angle") {
                            "SDDPT,-1,0",
                            "VDVBW,x,0,A,0,0,V",
                            "PSAT,HPR,170128.00,377.29,-0.75,,N",
-                           "PSXN,20,0,0,x,0"}) {
+                           "PSXN,20,0,0,x,0",
+                           "GPDTM,\xff\xfe,,0,N,0,E,0,W84"}) {
     CAPTURE(body);
     CHECK(is<Malformed>(read_navigation(sentence(body))));
   }

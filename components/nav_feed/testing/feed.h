@@ -7,6 +7,7 @@
 
 #include "components/formats/nmea/testing/sentence.h"
 #include "components/nav_feed/fed_track.h"
+#include "components/nav_feed/source_decoder.h"
 
 /// Sentences of a made-up source, and a track that they are given to.
 namespace ensonify::feed {
@@ -34,10 +35,27 @@ inline std::string fix(double utc_s, double east_m, double north_m, double above
 
 inline std::string heading(double degrees) { return nmea::sentence("HEHDT," + std::to_string(degrees) + ",T"); }
 
+/// A track with one source, whose bytes it takes as datagrams.
+struct FedBytes {
+  FedTrack track;
+  SourceDecoder decoder;
+
+  FedBytes(const NavFeedConfig& config, const frames::LocalProjection& world, const FedTrack::Count& count)
+      : track(config, world, count), decoder(config.sources[0], count) {}
+  void take(std::string_view bytes, SimTime now) {
+    decoder.take(bytes, false, true, [&](const nmea::Navigation& said) { track.take(said, {now, 0}); });
+  }
+  std::optional<frames::MovingPose> at(SimTime now) const { return track.at(now); }
+  bool lacks_data(SimTime now) const { return track.lacks_data(now); }
+  std::string trouble(SimTime now) const { return track.trouble(now); }
+  void forget(SimTime now) { track.forget(now); }
+  std::optional<msg::Position> take_fix() { return track.take_fix(); }
+};
+
 struct Fed {
   NavFeedConfig config{};
   std::map<std::string, int> counts{};
-  FedTrack feed{config, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
+  FedBytes feed{config, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
 };
 
 inline std::string motion_sentence(double utc_s, double roll_deg, double heave_m) {
