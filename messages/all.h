@@ -5,6 +5,7 @@
 #include "messages/clock.h"
 #include "messages/console.h"
 #include "messages/declarations.h"
+#include "messages/feed.h"
 #include "messages/health.h"
 #include "messages/labels.h"
 #include "messages/mission.h"
@@ -22,7 +23,7 @@ using AllMessages =
     std::tuple<Pose, Guidance, Helm, MissionState, Mark, NextLine, Coverage, Attitude, Position, SoundSpeed, Estimate,
                DelayedHeave, Heading, InertialIncrements, VelocityLog, Depth, Altitude, CurrentProfile, Ctd, UsblFix,
                Ping, Soundings, Snippets, SeabedImage, BottomTrack, Labels, Energies, Transmit, SonarSettings, Tile,
-               TileRelease, Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, HeadDeclaration,
+               TileRelease, Mesh, MeshRelease, Object, ObjectMesh, ObjectRelease, Chart, FeedData, HeadDeclaration,
                PagerDeclaration, Health, ClockHealth, View, ConsoleState, ConsoleFlow, ConsoleCells, ConsoleTrack,
                ConsoleValues, ConsoleAlarms, ConsoleLog, ConsoleRelief, ConsolePlan, ConsoleEnter, ConsoleWatch,
                ConsoleDrawn, ConsoleOpen, ConsoleCommand, ConsoleAnswer>;

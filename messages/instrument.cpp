@@ -49,6 +49,7 @@ constexpr Decision kDecisions[] = {
     {"chart/1", true},  // a surveyor has one, of this very seabed
     // The truth.
     {"pose/1", false},
+    {"feed_data/1", false},  // the pose is made of it
     {"tile/1", false},
     {"tile_release/1", false},
     {"mesh/1", false},

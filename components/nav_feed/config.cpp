@@ -5,6 +5,29 @@
 
 namespace ensonify {
 
+void FeedSource::check(const ConfigReader& from) const {
+  if (std::holds_alternative<File>(way) && format != Format::kNmea) {
+    from.problem("format", "a file is played by the times of its sentences; needs format: nmea");
+  }
+  if (std::holds_alternative<File>(way) && time_scale == TimeScale::kNone) {
+    from.problem("time_scale", "a file is played by the times of its sentences; needs utc or gps");
+  }
+}
+
+void NavFeedParameters::check(const ConfigReader& from) const {
+  const FeedSource* first = nullptr;
+  for (const FeedSource& source : sources) {
+    if (!source.may_give_places()) continue;
+    if (first != nullptr) {
+      from.problem("sources." + source.name + ".place",
+                   "places come from " + first->name + " already; one of them needs place: false");
+    }
+    first = &source;
+  }
+  if (first == nullptr)
+    from.problem("sources", "none gives places; needs one with place: true and format nmea or km_binary");
+}
+
 NavFeedConfig NavFeedConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   NavFeedConfig config;
   read_parameters<NavFeedParameters>(from, config);

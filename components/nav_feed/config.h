@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/config/parameters.h"
+#include "components/nav_feed/feed_source.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -17,29 +19,44 @@ struct NavFeedParameters {
   };
 
   std::string vehicle;
-  int port = 10110;
+  std::vector<FeedSource> sources{FeedSource{}};
+  bool recorded = false;
   int pose_rate_hz = 100;
   double delay_s = 2.5;
   double fastest_mps = 30.0;
-  frames::Vec3 antenna_body_m = frames::Vec3::Zero();
+  double time_jump_s = 5.0;
+  double straight_on_s = 10.0;
+  double attitude_gap_s = 3.0;
   Height height = Height::kWater;
 
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {
     visit("vehicle", "", any(), "vehicle of the scenario; \"\": the one with the process's name, or the only one",
           self.vehicle);
-    visit("port", "", in(1024, 65535), "UDP port on the loopback interface", self.port);
+    visit("sources", "the sources, by names of your own", self.sources);
+    visit("recorded", "", any(),
+          "record in place of the sources: the input `data` brings what another run took of them", self.recorded);
     visit("pose_rate_hz", "Hz", in(1, 1000), "true poses published per second", self.pose_rate_hz);
     visit("delay_s", "s", in(0, 60),
           "delay of the vehicle behind the feed; with less than two intervals between fixes its velocity jumps as they "
           "come",
           self.delay_s);
-    visit("fastest_mps", "m/s", in(0.1, 1000), "fixes that ask for more are not accepted", self.fastest_mps);
-    visit("antenna_position_m", "m", in(-500, 500),
-          "the place on the body that GGA is of: forward, starboard, down (up is negative)", self.antenna_body_m);
+    visit("fastest_mps", "m/s", in(0.1, 1000), "a fix that asks for more counts only when others agree with it",
+          self.fastest_mps);
+    visit("time_jump_s", "s", in(0.1, 600),
+          "a fix whose time is farther from its arrival than this counts only when others agree with it",
+          self.time_jump_s);
+    visit("straight_on_s", "s", in(1, 3600),
+          "time for which the vehicle goes straight on without fixes, before it stays; fixes farther apart are not "
+          "joined",
+          self.straight_on_s);
+    visit("attitude_gap_s", "s", in(0.05, 60),
+          "samples of roll, pitch, heading and heave that are farther apart are not joined: the older one is held",
+          self.attitude_gap_s);
     visit("height", "", one_of({{"water", Height::kWater}, {"gga", Height::kGga}}),
           "height of the vehicle: on the scenario's water level, or as the fixes' heights have it", self.height);
   }
+  void check(const ConfigReader& from) const;
 };
 
 struct NavFeedConfig : NavFeedParameters {

@@ -2,57 +2,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdio>
-#include <map>
 
-#include "components/formats/nmea/testing/sentence.h"
-#include "components/nav_feed/node.h"
+#include "components/nav_feed/testing/feed.h"
 
 using namespace ensonify;
 using Catch::WithinAbs;
 using nmea::sentence;
-
-namespace {
-
-const frames::Geodetic kOrigin{53.21, -9.37};  // no whole degrees, whose minutes would round to 60
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-std::string time_of(double t_s) {
-  const int milliseconds = static_cast<int>(std::llround(1e3 * t_s)) % 86400000, whole = milliseconds / 1000;
-  char text[16];
-  std::snprintf(text, sizeof text, "%02d%02d%02d.%03d", whole / 3600, whole / 60 % 60, whole % 60, milliseconds % 1000);
-  return text;
-}
-
-/// GGA of a place in the world, with seven decimals of a minute (0.2 mm) and four of a metre.
-std::string fix(double utc_s, double east_m, double north_m, double above_geoid_m = 1.0) {
-  const auto place = frames::LocalProjection(kOrigin).geodetic_of({east_m, north_m});
-  const double latitude = std::abs(place.latitude_deg), longitude = std::abs(place.longitude_deg);
-  char text[128];
-  std::snprintf(text, sizeof text, "GPGGA,%s,%02d%010.7f,N,%03d%010.7f,W,4,12,0.7,%.4f,M,50,M,,",
-                time_of(utc_s).c_str(), static_cast<int>(latitude), 60.0 * std::fmod(latitude, 1.0),
-                static_cast<int>(longitude), 60.0 * std::fmod(longitude, 1.0), above_geoid_m);
-  return sentence(text);
-}
-
-std::string heading(double degrees) { return sentence("HEHDT," + std::to_string(degrees) + ",T"); }
-
-struct Fed {
-  NavFeedConfig config{};
-  std::map<std::string, int> counts{};
-  FedTrack feed{config, frames::LocalProjection(kOrigin), [this](const std::string& what) { ++counts[what]; }};
-};
-
-std::string motion_sentence(double utc_s, double roll_deg, double heave_m) {
-  char text[128];
-  std::snprintf(text, sizeof text, "PASHR,%s,90.00,T,%+.3f,+0.00,%+.4f,0.1,0.1,0.1,1,1", time_of(utc_s).c_str(),
-                roll_deg, heave_m);
-  return sentence(text);
-}
-
-SimTime at_s(double t_s) { return from_seconds(t_s); }
-
-}  // namespace
+using namespace feed;
 
 TEST_CASE("a vehicle follows its fixes delayed, across midnight, with their derivatives") {
   Fed fed;
@@ -105,7 +61,8 @@ TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
   fed.feed.take(heading(10.0), at_s(0));  // nothing gives what time that is
   for (int i = 0; i <= 6; ++i) fed.feed.take(fix(100 + i, i, 0.0) + heading(90.0), at_s(i));
   const auto before = fed.feed.at(at_s(6))->pose.position_enu_m;
-  fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPVTG,1,T") + sentence("GPHDT,,T") +
+  fed.feed.take("rubbish\r\n$HEHDT,12.0,T*00\r\n\r\n" + sentence("GPXDR,C,12.0,C,AIR") +
+                    sentence("GPVTG,1,T,,M,4.0,N,7.4,K") + sentence("GPHDT,,T") +
                     sentence("GPGGA,000150.00,,,,,0,,,,M,,M,,") + sentence("HEHDT,999,T") + fix(105, 0.0, 0.0) +
                     fix(107, 500.0, 0.0) + fix(107, 200e3, 0.0),
                 at_s(6));
@@ -116,6 +73,7 @@ TEST_CASE("what cannot be used is counted, and the vehicle goes on as before") {
                                             {"sentences_malformed", 2},
                                             {"sentences_with_bad_checksum", 1},
                                             {"sentences_of_other_kinds", 1},
+                                            {"sentences_read_only", 1},
                                             {"sentences_without_data", 1},
                                             {"fixes_invalid", 1},
                                             {"sentences_late", 1},
@@ -139,7 +97,7 @@ TEST_CASE("without fixes it goes straight on and reports it; new fixes are follo
 TEST_CASE("fixes of an antenna off the reference point lead the reference point") {
   // In a circle of 50 m about the origin, 4 degrees a second to starboard, the antenna 6 m ahead and 2 m to starboard.
   NavFeedConfig config;
-  config.antenna_body_m = {6.0, 2.0, -5.0};
+  config.sources[0].antenna_body_m = {6.0, 2.0, -5.0};
   Fed fed{.config = config};
   const double rate = 4.0 * kDegree;
   const auto forward = [&](double t) { return frames::Vec2(std::cos(rate * t), -std::sin(rate * t)); };
@@ -165,7 +123,7 @@ TEST_CASE("heights of the antenna give the reference point's, between fixes by h
   // degrees; the antenna is 5 m up and 3 m to starboard.
   NavFeedConfig config;
   config.delay_s = 3.5;
-  config.antenna_body_m = {0.0, 3.0, -5.0};
+  config.sources[0].antenna_body_m = {0.0, 3.0, -5.0};
   config.height = NavFeedConfig::Height::kGga;
   config.datums.datum_above_geoid = vertical::Separation(-1.5);
   Fed fed{.config = config};
@@ -187,4 +145,70 @@ TEST_CASE("heights of the antenna give the reference point's, between fixes by h
   CHECK_THAT(fed.feed.take_fix()->position_enu_m[2], WithinAbs(above_datum(30.0) + up_m, 1e-3));
   fed.feed.take(sentence("GPGGA,000031.00,5312.6000000,N,00922.2000000,W,4,12,0.7,,M,,M,,"), at_s(31));
   CHECK(fed.counts["fixes_without_height"] == 1);
+}
+
+TEST_CASE("RMC gives places where no GGA comes, and none beside it") {
+  const auto rmc = [](int second, char status) {
+    return sentence("GPRMC," + time_of(100 + second) + "," + status + ",5312.60,N,00922.20,W,4.0,90.0,010826,,,A");
+  };
+  Fed alone, beside;
+  for (int i = 0; i <= 10; ++i) {
+    alone.feed.take(rmc(i, i == 5 ? 'V' : 'A') + heading(90.0), at_s(i));
+    beside.feed.take(fix(100 + i, 2.0 * i, 0.0) + rmc(i, 'A') + heading(90.0), at_s(i));
+  }
+  CHECK(alone.counts["fixes_taken"] == 10);
+  CHECK(alone.counts["fixes_invalid"] == 1);
+  CHECK(alone.feed.at(at_s(10)));
+  CHECK(beside.counts["fixes_taken"] == 11);
+  CHECK(beside.counts["sentences_read_only"] == 11);
+  for (int i = 11; i <= 30; ++i) beside.feed.take(rmc(i, 'A') + heading(90.0), at_s(i));  // GGA has stopped
+  CHECK(beside.counts["fixes_taken"] == 27);
+}
+
+TEST_CASE("fixes that cannot be used at all are named until one can be") {
+  Fed fed;
+  for (int i = 0; i <= 5; ++i) fed.feed.take(fix(100 + i, 0.0, 0.0) + heading(90.0), at_s(i));
+  fed.feed.take(sentence("GPDTM,999,,0.08,N,0.07,E,-47.7,W84") + fix(106, 0.0, 0.0), at_s(6));
+  CHECK(fed.counts["fixes_on_another_datum"] == 1);
+  CHECK(fed.feed.trouble(at_s(6)) == "fixes are on datum 999, not W84: not taken");
+  fed.feed.take(sentence("GPDTM,W84,,0.0,N,0.0,E,0.0,W84") + fix(107, 0.0, 0.0), at_s(7));
+  CHECK(fed.feed.trouble(at_s(7)) == "");
+  fed.feed.take(sentence("GPGGA,000148.000,0922.2000,S,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(8));
+  CHECK(fed.counts["fixes_with_latitude_and_longitude_swapped"] == 1);
+  CHECK(fed.feed.trouble(at_s(8)) == "latitude and longitude are swapped: not taken");
+  fed.feed.take(sentence("GPGGA,000149.000,4922.2000,N,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(9));
+  CHECK(fed.feed.trouble(at_s(9)).find("km from the site: not taken") != std::string::npos);
+  fed.feed.take(fix(110, 0.0, 0.0) + fix(110, 0.0, 0.0), at_s(10));
+  CHECK(fed.counts["fixes_double"] == 1);
+  CHECK(fed.feed.trouble(at_s(10)) == "");
+}
+
+TEST_CASE("what a motion sensor leaves blank or calls invalid is held, never zero") {
+  Fed fed;
+  const auto hpr = [](int second, const std::string& pitch, const std::string& roll) {
+    return sentence("PSAT,HPR," + time_of(100 + second) + ",90.00," + pitch + "," + roll + ",N");
+  };
+  for (int i = 0; i <= 10; ++i) fed.feed.take(fix(100 + i, 0.0, 0.0) + hpr(i, "1.50", i < 5 ? "3.00" : ""), at_s(i));
+  const auto attitude = [&] { return frames::attitude_of(fed.feed.at(at_s(12))->pose.enu_from_body); };
+  CHECK(attitude().pitch_rad == Approx(1.5 * kDegree));
+  CHECK(attitude().roll_rad == Approx(3.0 * kDegree));  // two baselines gave it once
+  CHECK(fed.feed.trouble(at_s(12)) == "no roll for 5.5 s: held");
+  Fed seapath;
+  for (int i = 0; i <= 10; ++i) {
+    seapath.feed.take(fix(100 + i, 0.0, 0.0) + sentence(i < 5 ? "PSXN,20,0,0,0,0" : "PSXN,20,0,0,2,0") +
+                          sentence(i < 5 ? "PSXN,23,3.00,1.00,90.00,0.10" : "PSXN,23,99.00,45.00,90.00,0.10"),
+                      at_s(i));
+  }
+  CHECK(frames::attitude_of(seapath.feed.at(at_s(12))->pose.enu_from_body).roll_rad == Approx(3.0 * kDegree));
+}
+
+TEST_CASE("a fix has the accuracy that GST gives of its time") {
+  Fed fed;
+  for (int i = 0; i <= 3; ++i) {
+    fed.feed.take(sentence("GPGST," + time_of(100 + i) + ",0.9,,,,0.03,0.04,0.06") + fix(100 + i, 0.0, 0.0), at_s(i));
+  }
+  const auto position = *fed.feed.take_fix();
+  CHECK(position.sigma_horizontal_m == Approx(0.05 / std::sqrt(2.0)));
+  CHECK(position.sigma_vertical_m == 0.06);
+  CHECK(position.geoid_above_ellipsoid_m == 50.0);
 }

@@ -1,14 +1,13 @@
 #include "components/nav_feed/node.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "components/nav_feed/feed_message.h"
 #include "components/runtime/log.h"
 #include "components/truth/pose_message.h"
 
 namespace ensonify {
-namespace {
-
-constexpr int kMostDatagrams = 1000;  // at an event: a flood must not stop the run
-
-}  // namespace
 
 NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
     : config_(config),
@@ -17,6 +16,15 @@ NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
       poses_(ports.out<msg::Pose>("pose", {.rate = Rate{config.pose_rate_hz, 1}})),
       fixes_(ports.out<msg::Position>("fix", {.rate = Rate{config.pose_rate_hz, 1}})),
       fixes_allowed_(Rate{config.pose_rate_hz, 1}) {
+  const auto count = [this](const std::string& what) { ports_.count(what); };
+  for (const FeedSource& source : config_.sources) decoders_.emplace_back(source, count);
+  if (config_.recorded) {
+    ports.in<msg::FeedData>("data",
+                            [this](const msg::FeedData& data) { append_pieces(data, config_.sources, recorded_); });
+  } else {
+    data_.emplace(ports.out<msg::FeedData>(
+        "data", {.max_bytes = most_feed_bytes(config.sources), .rate = Rate{config.pose_rate_hz, 1}}));
+  }
   const auto start = [this](const frames::Geodetic& origin) {
     track_.emplace(config_, frames::LocalProjection(origin), [this](const std::string& what) { ports_.count(what); });
   };
@@ -31,35 +39,45 @@ NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
 
 SimTime NavFeedNode::step(SimTime now) {
   if (!poses_due_.due(now)) return poses_due_.next();
-  if (!listener_) listener_.emplace(config_.port);
+  if (!sources_ && !config_.recorded) sources_.emplace(config_.sources);
   if (!track_) return poses_due_.next();
   receive(now);
   if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, now)));
-  if (track_->lacks_data(now)) {
-    ports_.count("poses_guessed");
-    ports_.health("degraded", "no fix for the time being: where the vehicle is is a guess, or not known yet");
-  } else {
-    ports_.health("ok", "");
-  }
+  if (track_->lacks_data(now)) ports_.count("poses_guessed");
+  std::string trouble = sources_ ? sources_->trouble() : "";
+  const std::string of_track = track_->trouble(now);
+  if (!trouble.empty() && !of_track.empty()) trouble += "; ";
+  trouble += of_track;
+  ports_.health(trouble.empty() ? "ok" : "degraded", trouble);
   track_->forget(now);
   return poses_due_.next();
 }
 
+/// What came since the event before, from outside or by a record.
+std::vector<FedPiece> NavFeedNode::arrived(SimTime now) {
+  if (config_.recorded) return std::exchange(recorded_, {});
+  std::vector<FedPiece> pieces = sources_->take(now);
+  sources_->count([this](const std::string& what, std::int64_t by) { ports_.count(what, by); });
+  if (!pieces.empty()) data_->send(feed_data(now, config_.sources, pieces));
+  return pieces;
+}
+
 void NavFeedNode::receive(SimTime now) {
-  for (int i = 0; i < kMostDatagrams; ++i) {
-    const auto datagram = listener_->take();
-    if (!datagram) break;
-    track_->take(*datagram, now);
-    if (const auto fix = track_->take_fix()) {
-      if (!fixes_allowed_.take(1, now)) {
-        ports_.count("fixes_too_many");
-        continue;
-      }
-      log::event(ports_, "fix", "stamp_s={:.3f} latitude_deg={:.7f} longitude_deg={:.7f} quality={}",
-                 seconds(SimTime{fix->stamp_ns}), fix->latitude_deg, fix->longitude_deg, fix->quality);
-      fixes_.send(*fix);
-    }
-  }
+  for (const FedPiece& piece : arrived(now)) take(piece, now);
+  const auto fix = track_->take_fix();
+  if (!fix) return;
+  if (!fixes_allowed_.take(1, now)) return ports_.count("fixes_too_many");
+  log::event(ports_, "fix", "stamp_s={:.3f} latitude_deg={:.7f} longitude_deg={:.7f} quality={}",
+             seconds(SimTime{fix->stamp_ns}), fix->latitude_deg, fix->longitude_deg, fix->quality);
+  fixes_.send(*fix);
+}
+
+void NavFeedNode::take(const FedPiece& piece, SimTime now) {
+  const SimTime measured =
+      std::clamp(piece.arrival, SimTime{0}, now) - from_seconds(config_.sources[piece.source].latency_s);
+  decoders_[piece.source].take(piece.bytes, piece.begins, piece.whole, [&](const nmea::Navigation& said) {
+    track_->take(said, {measured, piece.source});
+  });
 }
 
 /// The vehicle of the feed on the water of the world: it heaves about the water level, less what it settles by. One

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/fed_track.h"
+#include "components/nav_feed/source_decoder.h"
+#include "components/nav_feed/sources.h"
 #include "components/runtime/ports.h"
 #include "components/runtime/rate_limit.h"
-#include "components/transport/udp_listener.h"
 #include "kernels/vehicle/vertical/floating.h"
+#include "messages/feed.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -25,14 +28,19 @@ class NavFeedNode {
 
  private:
   void receive(SimTime now);
+  std::vector<FedPiece> arrived(SimTime now);
+  void take(const FedPiece& piece, SimTime now);
   frames::MovingPose at_its_height(frames::MovingPose moving, SimTime now);
 
   Config config_;
   Ports& ports_;
   Periodic poses_due_;
-  std::optional<UdpListener> listener_;         // from the first event on: a check of the launch file takes no port
+  std::optional<Sources> sources_;              // from the first event on: a check of the launch file takes no port
+  std::vector<SourceDecoder> decoders_;         // one of each source
   std::optional<FedTrack> track_;               // from when the world's origin is known on
   std::optional<vertical::Floating> floating_;  // from its first pose on
+  std::vector<FedPiece> recorded_;              // with config_.recorded: for this event
+  std::optional<Ports::Out<msg::FeedData>> data_;
   Ports::Out<msg::Pose> poses_;
   Ports::Out<msg::Position> fixes_;
   RateLimit fixes_allowed_;

@@ -37,6 +37,11 @@ def blocks(seconds):
     return found[:seconds]
 
 
+def three_hours_ahead(block):
+    fields = block["text"].splitlines()[0][1:].split("*")[0].split(",")
+    return sentence(",".join([fields[0], f"{float(fields[1]) + 30000:09.2f}", *fields[2:]]))
+
+
 @unittest.skipUnless(LOG.exists(), f"{LOG} is not there: the log that is sent")
 class NavFeed(SystemTest):
     def test_a_vessels_log_drives_the_boat(self):
@@ -52,6 +57,8 @@ class NavFeed(SystemTest):
                 for i, block in enumerate(sent):
                     out.sendto(block["text"].encode(), ("127.0.0.1", port))
                     out.sendto(b"noise that is no sentence\r\n", ("127.0.0.1", port))
+                    if i % 5 == 4:  # a fix of another time: reported, and nothing comes of it
+                        out.sendto(three_hours_ahead(block).encode(), ("127.0.0.1", port))
                     if stop.wait(max(0.0, began + i + 1 - time.monotonic())):
                         return
 
@@ -70,6 +77,9 @@ class NavFeed(SystemTest):
         counts = {counter.name: counter.count for counter in health[-1].counters}
         self.assertGreater(counts["sentences_malformed"], 5)  # reported, and nothing came of it
         self.assertNotIn("sentences_with_bad_checksum", counts)
+        self.assertGreater(counts["fixes_at_another_time"], 0)
+        self.assertNotIn("time_jumps", counts)
+        self.assertTrue(any("time jumped ahead by 3 h 0 min" in message.message for message in health), health)
 
         # Where the log is at each fix, by the sphere about the site: 1 m in 2 km north and 6 km east of it is enough to
         # give the right fix; along the way the boat must reach it to the millimetre.

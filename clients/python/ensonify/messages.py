@@ -41,6 +41,8 @@ __all__ = [
     "ChannelDeclaration",
     "HeadDeclaration",
     "PagerDeclaration",
+    "FeedPiece",
+    "FeedData",
     "Counter",
     "Health",
     "LabelledObject",
@@ -635,6 +637,39 @@ class PagerDeclaration(Message):
     TYPE = "pager_declaration/1"
     post_spacing_m: float = 0.0
     shallowest_m: float = 0.0
+
+
+@dataclass(eq=False)
+class FeedPiece(Struct):
+    """Bytes of one source of a feed that came together.
+
+    source: name of the source that sent them
+    arrival_ns [ns]: time of their arrival, sim time
+    byte_count [1]: number of bytes
+    begins: true for the first of a connection
+    whole: true for a datagram, which nothing continues
+    """
+
+    source: str = ""
+    arrival_ns: int = 0
+    byte_count: int = 0
+    begins: bool = False
+    whole: bool = False
+
+
+@dataclass(eq=False)
+class FeedData(Message):
+    """Bytes from outside that a feed took at this event, as they came.
+
+    stamp_ns [ns]: time of the event, sim time
+    pieces: pieces in the order in which they were taken
+    bytes [1]: bytes of all pieces, one after the other
+    """
+
+    TYPE = "feed_data/1"
+    stamp_ns: int = 0
+    pieces: list = list_of(FeedPiece)
+    bytes: np.ndarray = array("u1")
 
 
 @dataclass(eq=False)
@@ -1909,6 +1944,7 @@ TYPES = {cls.TYPE: cls for cls in (
     ConsoleAnswer,
     HeadDeclaration,
     PagerDeclaration,
+    FeedData,
     Health,
     Labels,
     Energies,

@@ -376,6 +376,28 @@ export interface PagerDeclaration {
   shallowest_m: number;
 }
 
+export interface FeedPiece {
+  /** name of the source that sent them */
+  source: string;
+  /** time of their arrival, sim time (ns) */
+  arrival_ns: number;
+  /** number of bytes (1) */
+  byte_count: number;
+  /** true for the first of a connection */
+  begins: boolean;
+  /** true for a datagram, which nothing continues */
+  whole: boolean;
+}
+
+export interface FeedData {
+  /** time of the event, sim time (ns) */
+  stamp_ns: number;
+  /** pieces in the order in which they were taken */
+  pieces: FeedPiece[];
+  /** bytes of all pieces, one after the other (1) */
+  bytes: Numbers<Uint8Array>;
+}
+
 export interface Counter {
   /** name of what is counted */
   name: string;
@@ -1385,6 +1407,7 @@ export const TYPES: Record<string, string> = {
   "ea981115c6cef8a9": "console_answer/1",
   "2cf25c955f742ec4": "head_declaration/1",
   "ec8cf9630d43fc33": "pager_declaration/1",
+  "e193aa9d820fa1c6": "feed_data/1",
   "8c49360ea9bfbb63": "health/1",
   "bf62e1bec5141cea": "labels/1",
   "a8402b03970e13d9": "energies/1",

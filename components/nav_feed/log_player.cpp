@@ -1,0 +1,53 @@
+#include "components/nav_feed/log_player.h"
+
+#include <utility>
+
+#include "components/errors/exit_error.h"
+#include "components/formats/nmea/navigation.h"
+#include "components/nav_feed/time_base.h"
+
+namespace ensonify {
+namespace {
+
+constexpr double kLongestPause_s = 3600.0;
+constexpr double kSmallStepBack_s = 1.0;  // sentences of one second in another order
+
+std::optional<double> time_of(const nmea::Navigation& sentence) {
+  if (const auto* fix = std::get_if<nmea::Fix>(&sentence); fix != nullptr && fix->quality > 0) return fix->time_s;
+  if (const auto* fix = std::get_if<nmea::MinimumFix>(&sentence); fix != nullptr && fix->fix.quality > 0) {
+    return fix->fix.time_s;
+  }
+  if (const auto* motion = std::get_if<formats::Motion>(&sentence)) return motion->time_s;
+  if (const auto* clock = std::get_if<nmea::DateAndTime>(&sentence)) return clock->time_s;
+  return std::nullopt;
+}
+
+}  // namespace
+
+LogPlayer::LogPlayer(const std::string& path) : file_(path) {
+  if (!file_) throw UserError(path + ": cannot be read");
+}
+
+void LogPlayer::read_next() {
+  std::string line;
+  if (!std::getline(file_, line)) return;
+  const std::size_t begin = line.find('$');
+  if (begin != std::string::npos) line.erase(0, begin);
+  if (const auto time_s = time_of(nmea::read_navigation(line))) {
+    const double step_s = time_of_day_s_ ? time_of_day_step_s(*time_of_day_s_, *time_s) : 0.0;
+    if (step_s > 0.0 && step_s <= kLongestPause_s) time_ += from_seconds(step_s);
+    if (step_s > 0.0 || step_s < -kSmallStepBack_s || !time_of_day_s_) time_of_day_s_ = time_s;
+  }
+  next_ = Line{line + '\n', time_};
+}
+
+std::optional<LogPlayer::Line> LogPlayer::take(SimTime now) {
+  if (!next_) {
+    if (!time_of_day_s_) time_ = now;
+    read_next();
+  }
+  if (!next_ || next_->arrival > now) return std::nullopt;
+  return std::exchange(next_, std::nullopt);
+}
+
+}  // namespace ensonify

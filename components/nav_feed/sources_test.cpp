@@ -1,0 +1,77 @@
+#include "components/nav_feed/sources.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "components/config/config_reader.h"
+#include "components/config/read_parameters.h"
+#include "components/nav_feed/config.h"
+
+using namespace ensonify;
+
+namespace {
+
+NavFeedParameters read(const std::string& yaml) {
+  ConfigReader from = ConfigReader::from_text(yaml, "feed.yaml");
+  NavFeedParameters parameters;
+  read_parameters(from, parameters);
+  from.finish();
+  return parameters;
+}
+
+std::filesystem::path log_of(const std::string& name, const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / ("ensonify_sources_test_" + name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("sources are read by names, each with its own way, arms, signs and time scale") {
+  const auto feed = read(
+      "sources:\n"
+      "  gnss: {tcp: 4001, of: 10.0.0.7, motion: false, antenna_position_m: [1, 2, -3], time_scale: gps}\n"
+      "  mru: {serial: /dev/ttyUSB0, baud: 19200, format: tss1, roll_reversed: true, latency_s: 0.02}\n");
+  REQUIRE(feed.sources.size() == 2);
+  CHECK(std::get<FeedSource::TcpClient>(feed.sources[0].way).address == "10.0.0.7");
+  CHECK(feed.sources[0].antenna_body_m.z() == -3.0);
+  CHECK(feed.sources[1].name == "mru");
+  CHECK(std::get<FeedSource::Serial>(feed.sources[1].way).baud == 19200);
+  CHECK(feed.sources[1].roll_reversed);
+}
+
+TEST_CASE("sources that cannot work together are mistakes with their place") {
+  CHECK_THROWS_WITH(read("sources: {a: {udp: 4001}, b: {udp: 4002}}"),
+                    Catch::Contains("sources.b.place: places come from a already; one of them needs place: false"));
+  CHECK_THROWS_WITH(read("sources: {mru: {udp: 4001, format: tss1}}"), Catch::Contains("sources: none gives places"));
+  CHECK_THROWS_WITH(read("sources: {a: {format: nmea}}"), Catch::Contains("needs one of"));
+  CHECK_THROWS_WITH(read("sources: {a: {udp: 4001, tcp: 4002}}"), Catch::Contains("sources.a"));
+}
+
+TEST_CASE("pieces of several logs come in the order of their arrival, as sim time goes on") {
+  const auto first =
+      log_of("a", "2014-08-01T00:00:00Z $GPZDA,120000.00,01,08,2014,,*6B\n$GPZDA,120002.00,01,08,2014,,*69\n");
+  const auto second = log_of("b", "$GPZDA,235959.50,01,08,2014,,*6C\n$GPZDA,000000.50,02,08,2014,,*6E\n");
+  std::vector<FeedSource> logs(2);
+  logs[0].way = FeedSource::File{first};
+  logs[1].way = FeedSource::File{second};
+  Sources sources(logs);
+  std::vector<std::pair<std::size_t, double>> taken;
+  for (int i = 0; i <= 300; ++i) {
+    for (const FedPiece& piece : sources.take(from_seconds(0.01 * i))) {
+      CHECK(piece.bytes.front() == '$');
+      taken.emplace_back(piece.source, seconds(piece.arrival));
+    }
+  }
+  CHECK(taken == std::vector<std::pair<std::size_t, double>>{{0, 0.0}, {1, 0.0}, {1, 1.0}, {0, 2.0}});
+  std::filesystem::remove(first);
+  std::filesystem::remove(second);
+}
+
+TEST_CASE("a source that cannot be opened is named") {
+  std::vector<FeedSource> one(1);
+  one[0].name = "gyro";
+  one[0].way = FeedSource::Serial{"/dev/no_such_line", 4800};
+  CHECK_THROWS_WITH(Sources(one), Catch::Contains("sources.gyro: cannot open the serial line /dev/no_such_line"));
+}
