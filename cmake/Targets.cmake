@@ -128,7 +128,7 @@ set(ENSONIFY_WATCHED
   mesh_message_test nav_feed_test paging_kernel_test patch_tool_test profile_test progressive_test record_live_test
   recorder_test relief_test replay_test sonar_equation_test surface_test survey_grid_test survey_test
   terrain_sources_test terrain_test tile_cache_test tile_store_test tiles_test topic_tool_test towed_body_test
-  trace_test uncertainty_test vehicle_test world_test)
+  trace_test transport_test uncertainty_test vehicle_test world_test)
 
 # ensonify_test(NAME_test SOURCES a_test.cpp DEPS lib LABELS unit): one Catch2 program, run as one ctest case.
 # Labels: unit, physics, system, determinism, golden, wire, bench. `sanitize`: also runs under the address sanitizer, for
