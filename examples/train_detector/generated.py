@@ -12,6 +12,7 @@ import torch
 from PIL import Image
 
 LEAST_PIXELS = 10  # of a thing in a training picture; fewer are neither wanted nor forbidden
+CUT_OUTS = 0.2  # share of pictures that a thing fills
 LEAST_CONTRAST_DB = 2.0  # of a thing's mean amplitude to that around it, either way; less cannot be seen
 
 
@@ -78,14 +79,23 @@ class Examples:
     def _where(self, master: Master, amplitude: np.ndarray, owner: np.ndarray) -> np.ndarray:
         """Row and column of the master (size x size x 2) that each pixel shows; beyond it -1."""
         form = _form(master.facts, owner.shape, self.random)
-        extent = form.extent  # of the whole picture, in its own unit
-        part = float(np.exp(self.random.uniform(np.log(0.22), np.log(1.15))))  # of the longer side
-        side = part * max(extent)
-        middle = self._middle(form, amplitude, owner, side)
+        if owner.any() and self.random.random() < CUT_OUTS:
+            middle, side = self._cut_out(form, owner)
+        else:
+            part = float(np.exp(self.random.uniform(np.log(0.22), np.log(1.15))))  # of the longer side
+            side = part * max(form.extent)
+            middle = self._middle(form, amplitude, owner, side)
         turn = self.random.normal(0, 0.08)
         grid = (np.arange(self.size) + 0.5) / self.size - 0.5
         y, x = np.meshgrid(grid * side, grid * side * np.exp(self.random.normal(0, 0.1)), indexing="ij")
         return form.to_master(middle[0] + x * np.sin(turn) + y * np.cos(turn), middle[1] + x * np.cos(turn) - y * np.sin(turn))
+
+    def _cut_out(self, form, owner: np.ndarray) -> tuple:
+        """Middle and side of a part that a thing fills, in the picture's own unit."""
+        rows, columns = np.nonzero(owner == self.random.choice(np.unique(owner[owner > 0])))
+        y, x = form.from_master(rows, columns)
+        side = max(np.ptp(y), np.ptp(x), 8.0) * self.random.uniform(1.1, 2.2)
+        return (y.min() + np.ptp(y) / 2 + self.random.normal(0, 0.05) * side, x.min() + np.ptp(x) / 2 + self.random.normal(0, 0.05) * side), side
 
     def _middle(self, form, amplitude: np.ndarray, owner: np.ndarray, side: float) -> tuple:
         """Of a part: mostly such that a thing is in it, else the strongest of three points."""
@@ -204,7 +214,11 @@ def displayed(amplitude: np.ndarray, random: np.random.Generator) -> np.ndarray:
     else:
         grey = (uneven / white) ** random.uniform(0.4, 1.1)
     grey = torch.from_numpy((grey * lit).astype(np.float32))[None, None]
-    if random.random() < 0.35:
+    if random.random() < 0.25:  # of a picture of fewer pixels
+        few = [max(16, int(side / random.uniform(1.5, 5))) for side in amplitude.shape]
+        grey = torch.nn.functional.interpolate(grey, size=few, mode="area")
+        grey = torch.nn.functional.interpolate(grey, size=amplitude.shape, mode="bilinear", align_corners=False)
+    elif random.random() < 0.35:
         grey = torch.nn.functional.avg_pool2d(grey, 3, 1, 1, count_include_pad=False)
     grey = grey[0, 0].numpy().clip(0, 1) * random.uniform(0.7, 1.0) + random.choice([0.0, random.uniform(0, 0.15)])
     grey = grey + random.normal(0, random.uniform(0, 0.03), grey.shape)
