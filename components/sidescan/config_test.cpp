@@ -14,7 +14,7 @@ TEST_CASE("sidescan/default.yaml lists every parameter with its default") {
 
 TEST_CASE("a sidescan outside its limits is refused with place and limits") {
   CHECK(problems_of<SidescanConfig>("{channels: [{name: low, frequency_hz: 5000}]}") ==
-        "head.yaml:1:39: channels[0].frequency_hz: 5000 is outside [50000, 1e+06]");
+        "head.yaml:1:39: channels[0].frequency_hz: 5000 is outside [50000, 2e+06]");
   CHECK_THAT(problems_of<SidescanConfig>("channels: []"), Catch::Contains("channels: needs at least one channel"));
   CHECK_THAT(
       problems_of<SidescanConfig>("{channels: [{name: a, frequency_hz: 100e3}, {name: a, frequency_hz: 500e3}]}"),
