@@ -169,9 +169,9 @@ TEST_CASE("objects with a mistake are refused with their place") {
   CHECK(problems_of("tyre: {diameter_m: 0.3, width_m: 0.2}, position_m: [0, 0, -5]") ==
         "s.yaml:6:26: objects.a.tyre.diameter_m: 0.3 is not above twice its width_m of 0.2");
   CHECK(problems_of("pipe: {diameter_m: 0.3, length_m: 2, wall_m: 0.2}, position_m: [0, 0, -5]") ==
-        "s.yaml:6:51: objects.a.pipe.wall_m: 0.2 leaves no bore in diameter_m 0.3; allowed: less than half of it");
+        "s.yaml:6:52: objects.a.pipe.wall_m: 0.2 leaves no bore in diameter_m 0.3; allowed: less than half of it");
   CHECK(problems_of("shell: {diameter_m: 0.4, length_m: 0.5}, position_m: [0, 0, -5]") ==
-        "s.yaml:6:44: objects.a.shell.length_m: 0.5 is not above 1.25 of its diameter_m of 0.4");
+        "s.yaml:6:42: objects.a.shell.length_m: 0.5 is not above 1.25 of its diameter_m of 0.4");
   CHECK(problems_of("sphere: {diameter_m: 1}, on_seabed: {at_m: [0, 0], burial: 1.2}") ==
         "s.yaml:6:66: objects.a.on_seabed.burial: 1.2 is outside [0, 1]");
 }

@@ -247,15 +247,20 @@ class Pictures(unittest.TestCase):
         (picture,) = pictures.pictures(record, "eye/ping", view="cartesian")
         bright = picture.linear > picture.linear[picture.linear > 0].min() * 50
         np.testing.assert_array_equal(bright, picture.layer == 9)
+        self.assertAlmostEqual(picture.facts["beam_to_rad"], float(amplitude.beam_angle_rad.max()))
         self.assertGreater(bright.sum(), 100)
         self.assertGreater(np.nonzero(bright)[1].mean(), picture.grey.shape[1] / 2)
 
     def test_lines_of_a_sidescan_are_one_waterfall(self):
         pairs = [(ping(n, "sidescan", 10, 2), label(n, 10, 2, [(0, 1, 3, 5)])) for n in range(5)]
+        for n in (1, 2, 4):  # before its first estimate a head does not know where it is
+            pairs[n][0].pose_position_enu_m = np.array([[3.0, 0.2 * n, -5.0]])
         whole, rest = pictures.pictures(Record("side/ping_main", pairs), "side/ping_main", lines=3)
         self.assertEqual(whole.grey.shape, (3, 20))
         self.assertEqual(rest.grey.shape, (2, 20))
         self.assertEqual(outlines.box(whole.things[0].mask), (13, 0, 2, 3))  # starboard, behind the 10 of port
+        self.assertAlmostEqual(whole.facts["line_spacing_m"], 0.2)
+        self.assertEqual(rest.facts["line_spacing_m"], 0.0)  # one place alone
         self.assertAlmostEqual(whole.things[0].facts["visible"], 0.52)  # of the line that has most of it
 
     def test_levels_are_the_same_in_all_pictures(self):

@@ -131,9 +131,12 @@ def _settings(pairs: list, scale_upa: float, display: Display, facts: dict) -> d
 
 
 def _line_spacing_m(pairs: list) -> float:
-    """Of a waterfall, on the mean, by the head's estimated poses."""
-    first, last = (np.asarray(pair.ping.pose_position_enu_m[0]) for pair in (pairs[0], pairs[-1]))
-    return float(np.linalg.norm(last - first)) / max(len(pairs) - 1, 1)
+    """Of a waterfall, on the mean, by the head's estimated poses; 0 where there are none."""
+    at = [(line, np.asarray(pair.ping.pose_position_enu_m[0])) for line, pair in enumerate(pairs) if len(pair.ping.pose_position_enu_m)]
+    if len(at) < 2:
+        return 0.0
+    (first, start), (last, end) = at[0], at[-1]
+    return float(np.linalg.norm(end - start)) / (last - first)
 
 
 def of_ping(pair: of.Labelled, view: str, display: Display, facts: dict, response: bool = False) -> Picture:
