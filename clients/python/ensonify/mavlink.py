@@ -243,19 +243,16 @@ class Decoder:
             self._counts["frames_cut"] += 1
 
 
-def address(text: str) -> tuple:
-    """HOST:PORT"""
-    host, _, port = text.rpartition(":")
-    if not host or not port.isdigit() or not 0 < int(port) < 65536:
-        raise argparse.ArgumentTypeError(f"{text}; allowed is HOST:PORT, as 127.0.0.1:10110")
+def address(text: str, way: str = "") -> tuple:
+    """HOST:PORT, behind the way that is given."""
+    host, _, port = text.removeprefix(way).rpartition(":")
+    if not text.startswith(way) or not host or not port.isdigit() or not 0 < int(port) < 65536:
+        raise argparse.ArgumentTypeError(f"{text}; allowed is {way}HOST:PORT, as {way}127.0.0.1:14550")
     return host, int(port)
 
 
 def listened(text: str) -> tuple:
-    """udp:HOST:PORT"""
-    if not text.startswith("udp:"):
-        raise argparse.ArgumentTypeError(f"{text}; allowed is udp:HOST:PORT, as udp:127.0.0.1:14550")
-    return address(text[len("udp:"):])
+    return address(text, "udp:")
 
 
 def identity(text: str) -> int:

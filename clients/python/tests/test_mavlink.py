@@ -1,7 +1,12 @@
 """Attitudes joined with positions and UTC, as KM binary: what goes out, with which time, and what never does."""
+import contextlib
+import io
 import math
+import sys
 import unittest
+from unittest import mock
 
+from ensonify import mavlink
 from ensonify.mavlink import NO_PLACE, SAMPLE, Attitude, Join, Position, between
 
 UTC_US = 1_780_000_000 * 10**6  # at boot time 0
@@ -142,6 +147,30 @@ class Joined(unittest.TestCase):
         self.position(60, latitude=200)
         self.assertEqual({name: count for name, count in self.join.counts.items() if name.endswith(("double", "impossible"))},
                          {"attitudes_late_or_double": 2, "attitudes_impossible": 1, "positions_late_or_double": 1, "positions_impossible": 2})
+
+
+class Started(unittest.TestCase):
+    def said(self, *arguments):
+        """Exit code and what is said of it."""
+        with contextlib.redirect_stderr(io.StringIO()) as error:
+            try:
+                code = mavlink.main(list(arguments))
+            except SystemExit as ended:
+                code = ended.code
+        return code, error.getvalue()
+
+    def test_without_pymavlink_it_says_what_to_install(self):
+        with mock.patch.dict(sys.modules, {"pymavlink": None}):
+            code, error = self.said("--to", "127.0.0.1:10110")
+        self.assertEqual(code, 2)
+        self.assertIn("needs pymavlink: pip install 'ensonify[mavlink]'", error)
+
+    def test_addresses_and_ids_that_cannot_be_are_refused(self):
+        for option, value, allowed in (("--listen", "tcp:127.0.0.1:1", "udp:HOST:PORT"), ("--listen", "udp:14550", "udp:HOST:PORT"),
+                                       ("--to", "127.0.0.1:70000", "HOST:PORT"), ("--system", "0", "1 to 255"), ("--component", "x", "1 to 255")):
+            code, error = self.said("--to", "127.0.0.1:10110", option, value)
+            self.assertEqual(code, 2)
+            self.assertIn(f"{value}; allowed is {allowed}", error)
 
 
 if __name__ == "__main__":
