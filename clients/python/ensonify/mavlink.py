@@ -24,7 +24,8 @@ POSITION_GAP_S = 1.5  # positions farther apart are not joined; it bounds how lo
 REORDERED_S = 1.0  # a boot time that is older by more is of another boot
 BOOT_JUMP_S = 5.0  # a boot time that runs ahead of its arrival by more is of another boot
 UTC_JUMP_S = 0.1  # a step of UTC that is said; every one is followed
-EARLIEST_UTC_US = 946684800 * 10**6  # 2000: clocks without UTC count from 1970 or say 0
+EARLIEST_UTC_US, LATEST_UTC_US = 946684800 * 10**6, 4102444800 * 10**6  # 2000 to 2100: clocks without UTC say 0 or count from 1970
+FASTEST_RADPS = 1000.0
 
 # The #KMB sample of #SKM, alone: mark, bytes, version; s, ns, status; latitude, longitude; ellipsoid height, roll, pitch,
 # heading, heave; rates; velocity; deviations and acceleration, which are 0; delayed heave with its time.
@@ -42,7 +43,9 @@ class Attitude(NamedTuple):
     rates_radps: tuple
 
     def is_possible(self) -> bool:
-        return all(map(math.isfinite, self.angles_rad + self.rates_radps)) and abs(self.angles_rad[1]) <= math.pi / 2
+        """Yaw may be up to 360 degrees, as some count it; what is not a number is not possible."""
+        most = (3.1416, math.pi / 2, 6.2832) + 3 * (FASTEST_RADPS,)
+        return all(abs(value) <= limit for value, limit in zip(self.angles_rad + self.rates_radps, most))
 
 
 class Position(NamedTuple):
@@ -115,7 +118,7 @@ class Join:
     def time(self, boot_ms: int, utc_us: int, arrival_s: float) -> None:
         """SYSTEM_TIME: what UTC is at a boot time."""
         self._follow_boot(boot_ms, arrival_s)
-        if utc_us < EARLIEST_UTC_US:
+        if not EARLIEST_UTC_US <= utc_us < LATEST_UTC_US:
             self.counts["times_without_utc"] += 1
             return
         self.counts["times"] += 1

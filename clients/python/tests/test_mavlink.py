@@ -90,7 +90,8 @@ class Joined(unittest.TestCase):
     def test_nothing_goes_out_before_utc_is_known(self):
         self.position(0)
         self.attitude(10)
-        self.join.time(20, 0, 0.02)  # an autopilot that has no UTC
+        for utc_us in (0, 2**64 - 1):  # an autopilot that has no UTC
+            self.join.time(20, utc_us, 0.02)
         self.attitude(30)
         self.position(40)
         self.assertEqual(self.sent, [])
@@ -142,11 +143,13 @@ class Joined(unittest.TestCase):
         self.attitude(100)
         self.attitude(90)
         self.attitude(110, roll=math.nan)
+        self.join.attitude(Attitude(110, REST, (3e38, 0, 0)), 0.11)
         self.position(0)
         self.position(50, latitude=0, longitude=0)
         self.position(60, latitude=200)
         self.assertEqual({name: count for name, count in self.join.counts.items() if name.endswith(("double", "impossible"))},
-                         {"attitudes_late_or_double": 2, "attitudes_impossible": 1, "positions_late_or_double": 1, "positions_impossible": 2})
+                         {"attitudes_late_or_double": 2, "attitudes_impossible": 2, "positions_late_or_double": 1,
+                          "positions_impossible": 2})
 
 
 class Started(unittest.TestCase):
