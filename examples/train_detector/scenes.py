@@ -41,14 +41,14 @@ def classes(sets: list) -> list:
 class Shown(Labelled):
     """A part of a generated picture as somebody's display shows it."""
 
-    def __init__(self, example: generated.Example, names: list, group: str):
+    def __init__(self, example: generated.Example, names: list, name: str, group: str):
         things = [Thing(names[kind], box.astype(float)) for box, kind in zip(example.boxes, example.kinds)]
         for place, thing in enumerate(things, 1):
             thing.mask = lambda shape, place=place: example.owner == place
         rows, columns = np.nonzero(example.owner < 0)
         if rows.size:
             things.append(Thing("", np.array([columns.min(), rows.min(), columns.max() + 1, rows.max() + 1], float), ignored=True))
-        super().__init__(Path(group), things, group)
+        super().__init__(Path(name), things, group)
         self.picture = np.rint(255 * example.grey).astype(np.uint8)
 
     def grey(self) -> np.ndarray:
@@ -64,5 +64,5 @@ def shown(sets: list, split: str, names: list, count: int, seed: int = 7) -> lis
     for i in range(count):
         one = generated.Examples(masters, names, 256, np.random.default_rng([seed, i]))
         example = one.draw()
-        drawn.append(Shown(example, names, f"{split}_{one.last}"))
+        drawn.append(Shown(example, names, f"{split}_{i:04d}", one.last))
     return drawn
