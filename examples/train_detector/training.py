@@ -37,7 +37,7 @@ def targets(examples: list, classes: int) -> dict:
             there[i] = np.maximum(there[i], np.exp(-0.5 * far))
             middle = (min(int(row), side - 1), min(int(column), side - 1))
             there[i][middle] = 1.0
-            near = (np.abs(x - middle[1]) <= max(0, 0.15 * wide)) & (np.abs(y - middle[0]) <= max(0, 0.15 * high))
+            near = (np.abs(x - middle[1]) <= max(1, 0.25 * wide)) & (np.abs(y - middle[0]) <= max(1, 0.25 * high))  # the peak may be there
             kind[i][near] = example.kinds[place]
             at_x, at_y = (x[near] + 0.5) * STRIDE, (y[near] + 0.5) * STRIDE
             edges[i][:, near] = [at_x - left, at_y - top, right - at_x, bottom - at_y]

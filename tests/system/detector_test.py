@@ -265,7 +265,7 @@ class Training(unittest.TestCase):
         self.assertIn("balanced accuracy", done.stdout)
         done = run("test", str(out), str(out / "real"))
         self.assertIn("classes that the detector has not", done.stderr)
-        for words, cause in ((("test", str(out / "none")), "detector.pt: is not there"), (("test", str(out), str(out / "drawn")), "allowed are COCO"),
+        for words, cause in ((("test", str(out / "none")), "none: is not there"), (("test", str(out), str(out / "drawn")), "allowed are COCO"),
                              (("test", str(out), str(out / "real"), "--rename", "x"), "allowed is THEIRS=OURS")):
             done = run(*words)
             self.assertEqual((done.returncode, cause in done.stderr), (2, True), done.stderr)
