@@ -24,7 +24,7 @@ const Senders kThisMachine({"127.0.0.1"});
 int free_port(int type) {
   const Descriptor probe(::socket(AF_INET, type, 0));
   sockaddr_in own = ipv4("127.0.0.1", 0);
-  ::bind(probe.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own);
+  REQUIRE(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0);
   socklen_t length = sizeof own;
   ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&own), &length);
   return ntohs(own.sin_port);
@@ -33,7 +33,7 @@ int free_port(int type) {
 Descriptor connected(int type, int port, const std::string& from = "127.0.0.1") {
   Descriptor out(::socket(AF_INET, type, 0));
   const sockaddr_in own = ipv4(from, 0), other = ipv4("127.0.0.1", port);
-  ::bind(out.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own);
+  REQUIRE(::bind(out.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0);
   if (::connect(out.get(), reinterpret_cast<const sockaddr*>(&other), sizeof other) != 0) out.reset();
   return out;
 }
