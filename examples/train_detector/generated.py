@@ -13,7 +13,7 @@ from PIL import Image
 
 LEAST_PIXELS = 10  # of a thing in a training picture; fewer are neither wanted nor forbidden
 CUT_OUTS = 0.2  # share of pictures that a thing fills
-LEAST_CONTRAST_DB = 2.0  # of a thing's mean amplitude to that around it, either way; less cannot be seen
+LEAST_CONTRAST_DB = 3.0  # of a thing's mean amplitude to that around it, either way; less cannot be seen
 
 
 class Example(NamedTuple):

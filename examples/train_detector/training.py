@@ -38,6 +38,8 @@ def targets(examples: list, classes: int) -> dict:
             middle = (min(int(row), side - 1), min(int(column), side - 1))
             there[i][middle] = 1.0
             near = (np.abs(x - middle[1]) <= max(1, 0.25 * wide)) & (np.abs(y - middle[0]) <= max(1, 0.25 * high))  # the peak may be there
+            near &= (np.abs(x + 0.5 - column) < 0.5 * wide) & (np.abs(y + 0.5 - row) < 0.5 * high)
+            near[middle] = True
             kind[i][near] = example.kinds[place]
             at_x, at_y = (x[near] + 0.5) * STRIDE, (y[near] + 0.5) * STRIDE
             edges[i][:, near] = [at_x - left, at_y - top, right - at_x, bottom - at_y]
@@ -58,7 +60,7 @@ def loss_of(said: tuple, wanted: dict) -> torch.Tensor:
     known = wanted["kind"] >= 0
     if known.any():
         loss = loss + functional.cross_entropy(kind.permute(0, 2, 3, 1)[known], wanted["kind"][known])
-        loss = loss + (1 - overlap(edges.permute(0, 2, 3, 1)[known], wanted["edges"].permute(0, 2, 3, 1)[known])).mean()
+        loss = loss + 2 * (1 - overlap(edges.permute(0, 2, 3, 1)[known], wanted["edges"].permute(0, 2, 3, 1)[known])).mean()
     share, of = torch.sigmoid(pixels[:, 0]), wanted["pixels"]
     cross = functional.binary_cross_entropy_with_logits(pixels[:, 0], of, reduction="none")
     dice = 1 - (2 * (share * of * counts).sum() + 1) / ((share * counts).sum() + (of * counts).sum() + 1)
