@@ -84,7 +84,7 @@ def arguments() -> argparse.ArgumentParser:
     of = verbs.add_parser("make", help="make pictures, train, fix the threshold")
     of.add_argument("kind", choices=sorted(scenes.RECIPES))
     of.add_argument("-o", "--out", type=Path, required=True)
-    of.add_argument("--pictures", type=int, default=None, help="number of generated pictures, of all recipes; default 2400 of imaging heads, 240 waterfalls")
+    of.add_argument("--pictures", type=int, default=None, help="number of generated pictures, of all recipes; default 2400 of imaging heads, 120 waterfalls")
     of.add_argument("--steps", type=int, default=1500, help=f"of training, {training.BATCH} pictures each")
     of.add_argument("--validate", type=int, default=400, help="number of validation pictures")
     of.add_argument("--seed", type=int, default=1)
@@ -106,7 +106,7 @@ def arguments() -> argparse.ArgumentParser:
 def main() -> int:
     given = arguments().parse_args()
     if given.verb == "make" and given.pictures is None:
-        given.pictures = {"imaging": 2400, "sidescan": 240}[given.kind]
+        given.pictures = {"imaging": 2400, "sidescan": 120}[given.kind]
     try:
         return make(given) if given.verb == "make" else test(given)
     except (labelled.Unreadable, scenes.Failed) as error:
