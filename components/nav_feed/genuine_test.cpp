@@ -77,6 +77,6 @@ TEST_CASE("a vessel's log is followed at its own times: places, and how much she
   CHECK(counts["motions_taken"] == 625);
   CHECK(counts["sentences_late"] == 0);
   CHECK(heave_m.size() > 600);
-  CHECK(deviation(heave_m) / deviation(logged_heave_m) == Approx(1.0).margin(0.01));
-  CHECK(deviation(roll_rad) / deviation(logged_roll_rad) == Approx(1.0).margin(0.01));
+  CHECK_THAT(deviation(heave_m) / deviation(logged_heave_m), Catch::Matchers::WithinAbs(1.0, 0.01));
+  CHECK_THAT(deviation(roll_rad) / deviation(logged_roll_rad), Catch::Matchers::WithinAbs(1.0, 0.01));
 }

@@ -5,6 +5,7 @@
     python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
 """
 import argparse
+import pickle
 import sys
 import time
 from pathlib import Path
@@ -52,7 +53,10 @@ def test(given: argparse.Namespace) -> int:
     if not file.is_file():
         raise labelled.Unreadable(f"{file}: is not there; allowed is what `make` made")
     torch.set_num_threads(given.jobs)
-    detector = Detector.load(file)
+    try:
+        detector = Detector.load(file)
+    except (OSError, RuntimeError, KeyError, TypeError, AttributeError, EOFError, ValueError, pickle.UnpicklingError) as error:
+        raise labelled.Unreadable(f"{file}: {type(error).__name__}; allowed is what `make` made") from None
     if given.pictures is not None:
         given.pictures.mkdir(parents=True, exist_ok=True)
     if given.folder is None:

@@ -154,7 +154,9 @@ def _yolo(folder: Path) -> list:
         with Image.open(picture) as opened:
             size = np.array(opened.size, float)
         things = []
-        for row in (rows_of[stem].read_text().splitlines() if stem in rows_of else []):
+        for row in (rows_of[stem].read_text().split("\n") if stem in rows_of else []):
+            if not row.strip():
+                continue
             kind, *numbers = row.split()
             corners = np.array(numbers, float)
             if corners.size == 4:

@@ -175,7 +175,7 @@ class Readers(unittest.TestCase):
         import labelled
         self.folder.joinpath("labels").mkdir()
         self.picture("images/a.png")
-        self.folder.joinpath("labels/a.txt").write_text("0 0.5 0.5 0.2 0.2\n1 0.2 0.2 0.1 0.1\n2 0.8 0.8 0.1 0.1\n")
+        self.folder.joinpath("labels/a.txt").write_text("0 0.5 0.5 0.2 0.2\n\n1 0.2 0.2 0.1 0.1\n2 0.8 0.8 0.1 0.1\n")
         read = labelled.chosen(labelled.read(self.folder), {"0": "ball"}, ["1"], [], ["2"])
         self.assertEqual([(thing.name, thing.ignored) for thing in read[0].things], [("ball", False), ("2", True)])
 
@@ -265,7 +265,8 @@ class Training(unittest.TestCase):
         self.assertIn("balanced accuracy", done.stdout)
         done = run("test", str(out), str(out / "real"))
         self.assertIn("classes that the detector has not", done.stderr)
-        for words, cause in ((("test", str(out / "none")), "none: is not there"), (("test", str(out), str(out / "drawn")), "allowed are COCO"),
+        (out / "wrong.pt").write_text("no detector")
+        for words, cause in ((("test", str(out / "wrong.pt")), "wrong.pt: UnpicklingError"), (("test", str(out / "none")), "none: is not there"), (("test", str(out), str(out / "drawn")), "allowed are COCO"),
                              (("test", str(out), str(out / "real"), "--rename", "x"), "allowed is THEIRS=OURS")):
             done = run(*words)
             self.assertEqual((done.returncode, cause in done.stderr), (2, True), done.stderr)
