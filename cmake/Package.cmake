@@ -19,8 +19,8 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME ensonify)
 set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "Programs, worlds and launch files: vehicles, instruments and sonar heads
 over a seabed of any size, as processes that talk ZeroMQ.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS  # of `ensonify plot` and the Python client
-    "python3, python3-gdal, python3-matplotlib, python3-msgpack, python3-numpy, python3-zmq")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS  # of the tools in Python and the Python client
+    "python3, python3-gdal, python3-matplotlib, python3-msgpack, python3-numpy, python3-pil, python3-scipy, python3-zmq")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS graphviz)  # `ensonify graph --svg`
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ensonify-dev)

@@ -31,6 +31,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"run", "start the processes of a launch file and watch over them"},
     {"test", "run launch files as tests, several at once: a table, JUnit"},
     {"dataset", "labelled pictures by the thousand from a recipe of scenes"},
+    {"detectability", "how well a detector finds what is in a recipe's pictures, and what that depends on"},
     {"check", "check a launch file, its configurations and its wiring without running it"},
     {"topic", "list, info, echo, hz and bw of the topics of a live run; pub publishes on one"},
     {"graph", "draw who talks to whom"},
@@ -77,7 +78,7 @@ void print_usage(const Programs& programs, std::FILE* to) {
   fmt::print(to, "Usage: ensonify VERB [OPTIONS]      (ensonify VERB --help says more)\n\n");
   for (const auto& [verb, what] : kKnownVerbs) {
     if (std::find(programs.verbs.begin(), programs.verbs.end(), verb) != programs.verbs.end()) {
-      fmt::print(to, "  {:<12} {}\n", verb, what);
+      fmt::print(to, "  {:<14} {}\n", verb, what);
     }
   }
   if (!programs.processes.empty()) {
