@@ -6,16 +6,16 @@ from typing import NamedTuple
 import numpy as np
 import torch
 
-from net import STRIDE, Net, seen
+from net import Net, peaks, seen
 
-LEAST_SIDE, LONGEST_SIDE = 256, 640  # of a picture as the network takes it
+LEAST_SIDE, LONGEST_SIDE = 128, 640  # of a picture as the network takes it
 
 
 class Found(NamedTuple):
     """What is found in a picture, the surest first."""
 
     boxes: np.ndarray  # things x 4: left, top, right, bottom, by edges of pixels
-    scores: np.ndarray  # things, 0..1: that something is there
+    scores: np.ndarray  # things, 0..1: that something is there, by both looks
     kinds: np.ndarray  # things x classes: share of each class
     masks: list  # of each thing rows x columns, bool, within its box
 
@@ -46,26 +46,17 @@ class Detector:
         picture = torch.from_numpy(np.ascontiguousarray(grey)).float()[None, None] / 255
         small = torch.nn.functional.interpolate(picture, size=size, mode="bilinear", align_corners=False, antialias=True)[0]
         with torch.no_grad():
-            there, kind, edges, pixels = self.net(seen(small))
-        scores, boxes, kinds = peaks(there[0, 0], kind[0], edges[0], least_score, most)
-        kept = separate(boxes, scores)
-        boxes, scores, kinds = boxes[kept], scores[kept], kinds[kept]
+            there, edges, pixels, features = self.net(seen(small))
+            first, boxes = peaks(there[0, 0], edges[0], 0.1 * least_score, 2 * most)
+            kept = separate(boxes.numpy(), first.numpy(), 0.7)[:most]
+            said, boxes = self.net.look(features, torch.nn.functional.pad(boxes[kept], (1, 0)))
+        kinds = torch.softmax(said, 1).numpy()
+        scores, kinds = np.sqrt(first[kept].numpy() * (1 - kinds[:, -1])), kinds[:, :-1] / kinds[:, :-1].sum(1, keepdims=True).clip(1e-9)
+        kept = [i for i in separate(boxes.numpy(), scores) if scores[i] >= least_score]
+        boxes, scores, kinds = boxes.numpy()[kept], scores[kept], kinds[kept]
         boxes = (boxes * np.array([columns / size[1], rows / size[0]] * 2)).clip(0, [columns, rows] * 2)
         share = torch.sigmoid(torch.nn.functional.interpolate(pixels, size=(rows, columns), mode="bilinear", align_corners=False))[0, 0]
         return Found(boxes, scores, kinds, [_within(share.numpy() > 0.5, box) for box in boxes])
-
-
-def peaks(there: torch.Tensor, kind: torch.Tensor, edges: torch.Tensor, least_score: float, most: int) -> tuple:
-    """(scores, boxes in pixels, shares of classes) of the highest points of the map."""
-    score = torch.sigmoid(there)
-    top = torch.nn.functional.max_pool2d(score[None, None], 3, 1, 1)[0, 0]
-    rows, columns = torch.nonzero((score == top) & (score >= least_score), as_tuple=True)
-    best = torch.argsort(score[rows, columns], descending=True)[:most]
-    rows, columns = rows[best], columns[best]
-    x, y = (columns + 0.5) * STRIDE, (rows + 0.5) * STRIDE
-    left, top, right, bottom = edges[:, rows, columns]
-    boxes = torch.stack([x - left, y - top, x + right, y + bottom], 1)
-    return score[rows, columns].numpy(), boxes.numpy(), torch.softmax(kind[:, rows, columns], 0).T.numpy()
 
 
 def separate(boxes: np.ndarray, scores: np.ndarray, overlap: float = 0.45) -> list:

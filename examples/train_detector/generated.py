@@ -11,9 +11,12 @@ import numpy as np
 import torch
 from PIL import Image
 
-LEAST_PIXELS = 10  # of a thing in a training picture; fewer are neither wanted nor forbidden
+LEAST_PIXELS = 20  # of a thing in a training picture; fewer are neither wanted nor forbidden
 CUT_OUTS = 0.2  # share of pictures that a thing fills
-LEAST_CONTRAST_DB = 3.0  # of a thing's mean amplitude to that around it, either way; less cannot be seen
+WITHIN = 0.8  # share of a sidescan's pictures that show no more than its waterfall
+LEAST_CONTRAST_DB = 3.0  # of a thing's mean level in decibels to that around it, either way; less cannot be seen
+GLINT_DB = 10.0  # of its mean square, where a few points of it shine
+FINEST = 3.0  # pixels of a training picture to a sample: nobody enlarges more
 
 
 class Example(NamedTuple):
@@ -82,9 +85,11 @@ class Examples:
         if owner.any() and self.random.random() < CUT_OUTS:
             middle, side = self._cut_out(form, owner)
         else:
-            part = float(np.exp(self.random.uniform(np.log(0.22), np.log(1.15))))  # of the longer side
-            side = part * max(form.extent)
+            of = min(form.extent) if master.facts["kind"] == "sidescan" and self.random.random() < WITHIN else max(form.extent)
+            side = max(float(np.exp(self.random.uniform(np.log(0.22), np.log(1.15)))) * of, self.size / FINEST)
             middle = self._middle(form, amplitude, owner, side)
+            if side < of <= min(form.extent):
+                middle = tuple(float(np.clip(at, 0.5 * side, extent - 0.5 * side)) for at, extent in zip(middle, form.extent))
         turn = self.random.normal(0, 0.08)
         grid = (np.arange(self.size) + 0.5) / self.size - 0.5
         y, x = np.meshgrid(grid * side, grid * side * np.exp(self.random.normal(0, 0.1)), indexing="ij")
@@ -94,7 +99,7 @@ class Examples:
         """Middle and side of a part that a thing fills, in the picture's own unit."""
         rows, columns = np.nonzero(owner == self.random.choice(np.unique(owner[owner > 0])))
         y, x = form.from_master(rows, columns)
-        side = max(np.ptp(y), np.ptp(x), 8.0) * self.random.uniform(1.1, 2.2)
+        side = max(max(np.ptp(y), np.ptp(x), 8.0) * self.random.uniform(1.1, 2.2), self.size / FINEST)
         return (y.min() + np.ptp(y) / 2 + self.random.normal(0, 0.05) * side, x.min() + np.ptp(x) / 2 + self.random.normal(0, 0.05) * side), side
 
     def _middle(self, form, amplitude: np.ndarray, owner: np.ndarray, side: float) -> tuple:
@@ -126,16 +131,17 @@ class Examples:
 
 
 def _stands_out(amplitude: np.ndarray, mask: np.ndarray) -> bool:
-    """Whether the mean square within differs from that of the box around it, twice as wide."""
+    """Whether the mean level within, or its mean square, differs from that of the box around it, twice as wide."""
     rows, columns = np.nonzero(mask)
     margin = max(4, (np.ptp(rows) + np.ptp(columns)) // 4)
     around = np.s_[max(rows.min() - margin, 0):rows.max() + margin + 1, max(columns.min() - margin, 0):columns.max() + margin + 1]
     inside = mask[around]
-    power = amplitude[around].astype(np.float64) ** 2
+    power = amplitude[around].astype(np.float64) ** 2 + 1
     if inside.all():
         return True
-    contrast_db = 10 * np.log10((power[inside].mean() + 1) / (power[~inside].mean() + 1))
-    return abs(contrast_db) >= LEAST_CONTRAST_DB
+    level_db = 10 * np.log10(power)
+    return bool(abs(level_db[inside].mean() - level_db[~inside].mean()) >= LEAST_CONTRAST_DB or
+                10 * np.log10(power[inside].mean() / power[~inside].mean()) >= GLINT_DB)
 
 
 class Flat:
