@@ -68,6 +68,11 @@ std::string framed(std::string_view body) {
   return fmt::format("${}*{:02X}\r\n", body, sum);
 }
 
+int quality_of(double sigma_horizontal_m) {
+  if (sigma_horizontal_m <= 0.1) return 4;
+  return sigma_horizontal_m <= 1.5 ? 2 : 1;
+}
+
 std::string gga(std::string_view talker, const Fix& fix, int time_decimals) {
   if (fix.quality == 0) return framed(fmt::format("{}GGA,,,,,,0,00,,,M,,M,,", talker));
   return framed(fmt::format("{}GGA,{},{},{},{},12,{},{},M,{},M,,", talker, time_text(fix.time_s, time_decimals),

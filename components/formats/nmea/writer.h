@@ -16,6 +16,9 @@ namespace ensonify::nmea {
 /// A `$`, the body, its sum and CR LF.
 std::string framed(std::string_view body);
 
+/// GGA's quality of a system that does not state it: what has such a standard deviation.
+int quality_of(double sigma_horizontal_m);
+
 /// With 12 satellites, which a Fix does not have. Quality 0: all else is blank. `time_decimals`: 2 or 3.
 std::string gga(std::string_view talker, const Fix& fix, int time_decimals = 3);
 std::string gst(std::string_view talker, const FixAccuracy& accuracy);
