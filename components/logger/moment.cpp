@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "components/logger/gga.h"
+#include "components/formats/nmea/writer.h"
 
 namespace ensonify::logger {
 
@@ -12,11 +12,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// GGA's quality; of a system that does not state it, what has such a standard deviation.
+/// GGA's quality.
 std::int64_t quality_of(const msg::Position& fix) {
-  if (fix.quality > 0) return fix.quality;
-  if (fix.sigma_horizontal_m <= 0.1) return 4;
-  return fix.sigma_horizontal_m <= 1.5 ? 2 : 1;
+  return fix.quality > 0 ? fix.quality : nmea::quality_of(fix.sigma_horizontal_m);
 }
 double hdop_of(const msg::Position& fix) { return fix.hdop > 0.0 ? fix.hdop : 1.0; }
 
@@ -87,9 +85,17 @@ Moment between(const Moment& earlier, const Moment& later) {
 
 std::string gga_of(const Moment& moment, const msg::Position& fix, SimulatedMarks marks) {
   constexpr std::int64_t kSimulator = 8;
-  return gga_text({moment.unix_ns, moment.reference.latitude_deg, moment.reference.longitude_deg,
-                   marks == SimulatedMarks::kDatagrams ? kSimulator : quality_of(fix), hdop_of(fix),
-                   fix.height_above_geoid_m, fix.geoid_above_ellipsoid_m});
+  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  nmea::Fix sentence;
+  sentence.time_s = 1e-9 * static_cast<double>(moment.unix_ns % kDay_ns);
+  sentence.quality = static_cast<int>(marks == SimulatedMarks::kDatagrams ? kSimulator : quality_of(fix));
+  sentence.latitude_deg = moment.reference.latitude_deg;
+  sentence.longitude_deg = moment.reference.longitude_deg;
+  sentence.hdop = hdop_of(fix);
+  sentence.height_above_geoid_m = fix.height_above_geoid_m;
+  sentence.geoid_above_ellipsoid_m = fix.geoid_above_ellipsoid_m;
+  const std::string text = nmea::gga("IN", sentence, 2);
+  return text.substr(1, text.size() - 3);
 }
 
 }  // namespace ensonify::logger

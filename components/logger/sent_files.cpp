@@ -8,6 +8,7 @@
 #include "components/errors/exit_error.h"
 #include "components/formats/all/network.h"
 #include "components/formats/kmall/parts.h"
+#include "components/transport/udp_sender.h"
 
 namespace ensonify::logger {
 
@@ -42,7 +43,8 @@ SentFiles::SentFiles(const LoggerConfig& config, Files& files) : formats_(config
       const UdpAddress to = udp_address(one.to);
       receivers_.push_back(
           {text_of(to), one.formats,
-           std::make_unique<UdpStream>(to, interface_address(one.interface), one.ttl, 1e6 * one.rate_mb_s)});
+           std::make_unique<SendStream>(std::make_unique<UdpSender>(to, interface_address(one.interface), one.ttl),
+                                        1e6 * one.rate_mb_s)});
     } catch (const UserError& error) {
       throw UserError(fmt::format("send[{}].interface: {}", receivers_.size(), error.what()));
     }

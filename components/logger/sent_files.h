@@ -7,7 +7,7 @@
 
 #include "components/logger/config.h"
 #include "components/logger/survey_log.h"
-#include "components/transport/udp_stream.h"
+#include "components/transport/send_stream.h"
 
 namespace ensonify::logger {
 
@@ -30,7 +30,7 @@ class SentFiles : public Files {
     std::string to;
     std::int64_t datagrams = 0;  // and parts, offered to it
     std::int64_t bytes = 0;      // of these
-    UdpStream::Counts sent;
+    SendStream::Counts sent;
   };
   /// By receiver.
   std::vector<Counts> counts() const;
@@ -39,7 +39,7 @@ class SentFiles : public Files {
   struct Receiver {
     std::string to;
     SentFormats formats;
-    std::unique_ptr<UdpStream> stream;
+    std::unique_ptr<SendStream> stream;
     std::int64_t datagrams = 0, bytes = 0;
   };
 

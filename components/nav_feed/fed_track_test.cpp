@@ -195,7 +195,7 @@ TEST_CASE("what a motion sensor leaves blank or calls invalid is held, never zer
   CHECK(fed.feed.trouble(at_s(12)) == "no roll for 5.5 s: held");
   Fed seapath;
   for (int i = 0; i <= 10; ++i) {
-    seapath.feed.take(fix(100 + i, 0.0, 0.0) + sentence(i < 5 ? "PSXN,20,0,0,0,0" : "PSXN,20,0,0,2,0") +
+    seapath.feed.take(fix(100 + i, 0.0, 0.0) + sentence(i < 5 ? "PSXN,20,0,0,0,0" : "PSXN,20,0,0,0,2") +
                           sentence(i < 5 ? "PSXN,23,3.00,1.00,90.00,0.10" : "PSXN,23,99.00,45.00,90.00,0.10"),
                       at_s(i));
   }

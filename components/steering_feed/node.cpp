@@ -1,5 +1,6 @@
 #include "components/steering_feed/node.h"
 
+#include "components/errors/exit_error.h"
 #include "kernels/vehicle/guidance/laws.h"
 
 namespace ensonify {
@@ -28,7 +29,7 @@ SteeringFeedNode::SteeringFeedNode(const Config& config, Ports& ports)
 
 SimTime SteeringFeedNode::step(SimTime now) {
   if (!commands_due_.due(now)) return commands_due_.next();
-  if (!listener_) listener_.emplace(config_.port);
+  if (!receiver_) listen();
   receive(now);
   if (!estimate_ || !world_) return commands_due_.next();
   const frames::Vec2 velocity_mps(estimate_->velocity_enu_mps[0], estimate_->velocity_enu_mps[1]);
@@ -58,12 +59,28 @@ double SteeringFeedNode::heading_grid_rad(const OrderedCourse::Order& order) con
   return frames::wrap_two_pi(guidance::heading_for_course_rad(grid_rad, config_.speed_mps, drift_enu_mps_));
 }
 
+void SteeringFeedNode::listen() {
+  const std::string here = "127.0.0.1";
+  try {
+    receiver_.emplace(udp_channel(here, config_.port, Senders({here})));
+  } catch (const UserError& error) {
+    throw UserError(std::string("port: ") + error.what());
+  }
+}
+
 void SteeringFeedNode::receive(SimTime now) {
   for (int i = 0; i < kMostDatagrams; ++i) {
-    const auto datagram = listener_->take();
-    if (!datagram) return;
-    course_.take(*datagram, now);
+    const auto arrival = receiver_->take();
+    if (!arrival) break;
+    course_.take(arrival->piece.bytes, now);
   }
+  const Receiver::State state = receiver_->state();
+  const auto grown = [&](const char* what, std::uint64_t total, std::uint64_t& before) {
+    if (total > before) ports_.count(what, static_cast<std::int64_t>(total - before));
+    before = total;
+  };
+  grown("senders_refused", state.refused, refused_);
+  grown("bytes_dropped", state.dropped_bytes, dropped_bytes_);
 }
 
 }  // namespace ensonify

@@ -8,10 +8,10 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <functional>
 
 #include "components/errors/exit_error.h"
 #include "components/transport/descriptor.h"
+#include "components/transport/testing/loopback.h"
 
 using namespace ensonify;
 using namespace std::chrono_literals;
@@ -19,16 +19,6 @@ using namespace std::chrono_literals;
 namespace {
 
 const Senders kThisMachine({"127.0.0.1"});
-
-/// A port of this machine that nobody has.
-int free_port(int type) {
-  const Descriptor probe(::socket(AF_INET, type, 0));
-  sockaddr_in own = ipv4("127.0.0.1", 0);
-  REQUIRE(::bind(probe.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0);
-  socklen_t length = sizeof own;
-  ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&own), &length);
-  return ntohs(own.sin_port);
-}
 
 Descriptor connected(int type, int port, const std::string& from = "127.0.0.1") {
   Descriptor out(::socket(AF_INET, type, 0));
@@ -45,25 +35,6 @@ void send(const Descriptor& out, const std::string& bytes) {
     REQUIRE(now > 0);
     sent += static_cast<std::size_t>(now);
   }
-}
-
-/// Asks until it holds, for five seconds at most.
-bool comes_true(const std::function<bool()>& holds) {
-  for (int i = 0; i < 500; ++i) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(10ms);
-  }
-  return false;
-}
-
-/// All bytes, once there are so many.
-std::string received(Receiver& receiver, std::size_t count) {
-  std::string bytes;
-  comes_true([&] {
-    while (auto arrival = receiver.take()) bytes += arrival->piece.bytes;
-    return bytes.size() >= count;
-  });
-  return bytes;
 }
 
 }  // namespace

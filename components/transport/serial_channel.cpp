@@ -1,46 +1,22 @@
-#include <fcntl.h>
 #include <poll.h>
-#include <termios.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <map>
 #include <thread>
 #include <utility>
 
-#include "components/errors/exit_error.h"
 #include "components/transport/channel.h"
 #include "components/transport/descriptor.h"
+#include "components/transport/serial_line.h"
 
 namespace ensonify {
 namespace {
 
-constexpr std::chrono::seconds kTryAgain{1};
-
-speed_t speed_of(int baud) {
-  static const std::map<int, speed_t> kSpeeds{{4800, B4800},     {9600, B9600},     {19200, B19200},
-                                              {38400, B38400},   {57600, B57600},   {115200, B115200},
-                                              {230400, B230400}, {460800, B460800}, {921600, B921600}};
-  const auto found = kSpeeds.find(baud);
-  if (found != kSpeeds.end()) return found->second;
-  throw UserError(std::to_string(baud) +
-                  " baud is no rate of a serial line; allowed: 4800 and its doubles, 57600 and its doubles to 921600");
-}
-
-/// Eight bits, no parity, one stop bit, every byte as it comes.
 class SerialChannel : public Channel {
  public:
-  SerialChannel(const std::string& path, int baud) : path_(path), speed_(speed_of(baud)) {
-    if (!open()) {
-      throw UserError("cannot open the serial line " + path + ": " + std::strerror(errno) +
-                      "; allowed: a line such as /dev/ttyUSB0");
-    }
-  }
+  SerialChannel(const std::string& path, int baud) : path_(path), baud_(baud), line_(serial::must_open(path, baud)) {}
 
   std::optional<Piece> wait(std::chrono::milliseconds limit) override {
-    if (!line_.is_open() && !open()) {
-      std::this_thread::sleep_for(std::min<std::chrono::milliseconds>(limit, kTryAgain));
+    if (!line_.is_open() && !reopen()) {
+      std::this_thread::sleep_for(std::min<std::chrono::milliseconds>(limit, serial::kTryAgain));
       return std::nullopt;
     }
     if (!comes_within(line_, POLLIN, limit)) return std::nullopt;
@@ -56,23 +32,16 @@ class SerialChannel : public Channel {
   }
 
  private:
-  bool open() {
-    Descriptor line(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-    termios settings{};
-    if (!line.is_open() || ::tcgetattr(line.get(), &settings) != 0) return false;
-    ::cfmakeraw(&settings);
-    settings.c_cflag |= CLOCAL | CREAD;
-    ::cfsetispeed(&settings, speed_);
-    ::cfsetospeed(&settings, speed_);
-    if (::tcsetattr(line.get(), TCSANOW, &settings) != 0) return false;
-    line_ = std::move(line);
+  bool reopen() {
+    line_ = serial::open(path_, baud_);
+    if (!line_.is_open()) return false;
     begins_ = true;
     trouble_.clear();
     return true;
   }
 
   std::string path_;
-  speed_t speed_;
+  int baud_;
   Descriptor line_;
   bool begins_ = true;
 };

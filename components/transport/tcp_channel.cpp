@@ -1,22 +1,16 @@
 #include <netinet/in.h>
 #include <poll.h>
-#include <sys/socket.h>
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <thread>
 #include <utility>
 
-#include "components/errors/exit_error.h"
 #include "components/transport/channel.h"
 #include "components/transport/descriptor.h"
+#include "components/transport/tcp.h"
 
 namespace ensonify {
 namespace {
-
-constexpr std::chrono::seconds kTryAgain{1};
-
-Descriptor tcp_socket() { return Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)); }
 
 /// What both ends have: one connection, or none.
 class TcpChannel : public Channel {
@@ -65,15 +59,9 @@ class TcpClient : public TcpChannel {
       std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(limit, next_try_ - now));
       return false;
     }
-    next_try_ = now + kTryAgain;
-    Descriptor trying = tcp_socket();
-    const sockaddr_in other = ipv4(address_, port_);
-    if (::connect(trying.get(), reinterpret_cast<const sockaddr*>(&other), sizeof other) != 0) {
-      if (errno != EINPROGRESS || !comes_within(trying, POLLOUT, limit)) return false;
-      int error = 0;
-      socklen_t length = sizeof error;
-      if (::getsockopt(trying.get(), SOL_SOCKET, SO_ERROR, &error, &length) != 0 || error != 0) return false;
-    }
+    next_try_ = now + tcp::kTryAgain;
+    Descriptor trying = tcp::connect(address_, port_, limit);
+    if (!trying.is_open()) return false;
     return connected(std::move(trying));
   }
   std::string no_connection() const override { return "no connection to " + place_of(address_, port_); }
@@ -87,21 +75,13 @@ class TcpClient : public TcpChannel {
 class TcpServer : public TcpChannel {
  public:
   TcpServer(const std::string& address, int port, const Senders& senders)
-      : senders_(senders), port_(port), listener_(tcp_socket()) {
-    const sockaddr_in own = ipv4(address, port);
-    const int yes = 1;
-    ::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    if (!listener_.is_open() || ::bind(listener_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0 ||
-        ::listen(listener_.get(), 4) != 0) {
-      throw UserError("cannot listen to TCP port " + std::to_string(port) + " of " + address + ": " +
-                      std::strerror(errno) + "; allowed: a port that is free");
-    }
+      : senders_(senders), port_(port), listener_(tcp::listener(address, port)) {
     trouble_ = no_connection();
   }
 
   std::optional<Piece> wait(std::chrono::milliseconds limit) override {
     if (connection_.is_open()) {
-      while (Descriptor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC)).is_open()) ++refused_;
+      while (tcp::accept(listener_, senders_).connection.is_open()) ++refused_;
     }
     return TcpChannel::wait(limit);
   }
@@ -109,12 +89,9 @@ class TcpServer : public TcpChannel {
  private:
   bool connect(std::chrono::milliseconds limit) override {
     if (!comes_within(listener_, POLLIN, limit)) return false;
-    sockaddr_in sender{};
-    socklen_t length = sizeof sender;
-    Descriptor accepted(
-        ::accept4(listener_.get(), reinterpret_cast<sockaddr*>(&sender), &length, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (!accepted.is_open()) return false;
-    if (senders_.allow(sender.sin_addr.s_addr)) return connected(std::move(accepted));
+    tcp::Accepted accepted = tcp::accept(listener_, senders_);
+    if (accepted.allowed) return connected(std::move(accepted.connection));
+    if (!accepted.connection.is_open()) return false;
     ++refused_;
     return false;
   }

@@ -194,9 +194,9 @@ Navigation read_timed_motion(const Fields& f, std::size_t time, const Places& at
   return time_s ? read_motion(f, at, time_s) : Navigation{Malformed{}};
 }
 
-/// 0: normal, 1: reduced, 2: not valid.
+/// Of place, height, heading, roll and pitch. 0: normal, 1: reduced, 2: not valid.
 Navigation read_quality(const Fields& f) {
-  const auto heave = number(f[3], 0, 2), roll_and_pitch = number(f[4], 0, 2), heading = number(f[5], 0, 2);
+  const auto heave = number(f[3], 0, 2), heading = number(f[4], 0, 2), roll_and_pitch = number(f[5], 0, 2);
   if (!heave || !roll_and_pitch || !heading) return Malformed{};
   return MotionQuality{*heave < 2, *roll_and_pitch < 2, *heading < 2};
 }

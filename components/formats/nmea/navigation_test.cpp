@@ -97,7 +97,8 @@ TEST_CASE("what a mode or status calls invalid is not read as data") {
   CHECK(is<Empty>(read_navigation(sentence("TIROT,-30.0,V"))));
   CHECK(is<Empty>(read_navigation(sentence("GPVTG,,T,,M,0.0,N,0.0,K,N"))));
   CHECK(std::get<MinimumFix>(read_navigation(sentence("GPRMC,,V,,,,,,,,,,N"))).fix.quality == 0);
-  CHECK_FALSE(std::get<MotionQuality>(read_navigation(sentence("PSXN,20,0,0,2,0"))).roll_and_pitch);
+  CHECK_FALSE(std::get<MotionQuality>(read_navigation(sentence("PSXN,20,0,0,0,2"))).roll_and_pitch);
+  CHECK_FALSE(std::get<MotionQuality>(read_navigation(sentence("PSXN,20,0,0,2,0"))).heading);
   CHECK_FALSE(std::get<Course>(read_navigation(sentence("GPVTG,,T,,M,0.0,N,0.0,K,A"))).true_course_rad);
 }
 

@@ -3,10 +3,13 @@
 #include <string>
 
 #include "components/formats/em_attitude/em_attitude.h"
+#include "components/formats/em_attitude/writer.h"
 #include "components/formats/km_binary/km_binary.h"
+#include "components/formats/km_binary/writer.h"
 #include "components/formats/kmall/reader.h"
 #include "components/formats/testing/sample.h"
 #include "components/formats/tss1/tss1.h"
+#include "components/formats/tss1/writer.h"
 
 using namespace ensonify::formats;
 using Catch::WithinAbs;
@@ -25,14 +28,6 @@ Bytes em_frame(std::uint8_t status, int roll, int pitch, int heave_cm, int headi
   append_number(frame, status);
   append_number(frame, std::uint8_t{0x90});
   for (const int value : {roll, pitch, heave_cm, heading}) append_number(frame, static_cast<std::uint16_t>(value));
-  return frame;
-}
-
-Bytes km_frame(const km_binary::Sample& sample) {
-  Bytes frame;
-  LayoutWriter out(frame);
-  out(sample);
-  frame.resize(sample.stated_bytes);
   return frame;
 }
 
@@ -122,6 +117,34 @@ TEST_CASE("EM 3000 and EM 1000 attitude is read: port up, bow up, heave up") {
   CHECK_FALSE(em_attitude::read(em_frame(0x90, 1, 2, 3, 36001)));
 }
 
+TEST_CASE("a TSS1 line that is read and written is the same") {
+  for (const char* line : {":090048  0013F-0067  0035\r\n", ":09FFFF -0013f 0067 -0035\r\n",
+                           ":000000  0000U 0000  0000\r\n", ":FF8000 -9999H-9000  9000\r\n"}) {
+    CAPTURE(line);
+    CHECK(tss1::write(*tss1::read(bytes_of(line))) == line);
+  }
+}
+
+TEST_CASE("an EM attitude frame that is read and written is the same") {
+  for (const Bytes& frame : {em_frame(0x90, -150, 250, -123, 35999), em_frame(0x00, 18000, -9000, 1000, 0),
+                             em_frame(0x9A, -18000, 9000, -1000, 1)}) {
+    CHECK(em_attitude::write(*em_attitude::read(frame)) == frame);
+  }
+}
+
+TEST_CASE("values beyond what TSS1 and EM attitude can say are their limits, and a whole turn is no heading") {
+  tss1::Sample line;
+  line.status = 'F';
+  line.motion = {{}, {}, 2.0, -2.0, 200.0};
+  line.horizontal_acceleration_mps2 = 50.0;
+  line.vertical_acceleration_mps2 = -50.0;
+  CHECK(tss1::write(line) == ":FF8000  9999F 9000 -9000\r\n");
+  em_attitude::Sample frame;
+  frame.status = 0x90;
+  frame.motion = {{}, 359.999 * kDegree, 4.0, -2.0, -12.0};
+  CHECK(em_attitude::write(frame) == em_frame(0x90, 18000, -9000, -1000, 0));
+}
+
 TEST_CASE("KM binary is read: time of the day, heave up, and only what its status calls valid") {
   km_binary::Sample sent;
   sent.time_s = 1'406'851'200 + 3661;  // 2014-08-01 01:01:01
@@ -134,7 +157,7 @@ TEST_CASE("KM binary is read: time of the day, heave up, and only what its statu
   sent.longitude_deg = -17.94;
   for (const std::uint16_t length : {120, 132}) {
     sent.stated_bytes = length;
-    const auto frames = frames_of<km_binary::Stream>(km_frame(sent), 50);
+    const auto frames = frames_of<km_binary::Stream>(km_binary::write(sent), 50);
     REQUIRE(frames.size() == 1);
     const auto motion = km_binary::motion_of(*km_binary::read(frames[0]));
     CHECK_THAT(*motion.time_s, WithinAbs(3661.25, 1e-9));
@@ -149,10 +172,10 @@ TEST_CASE("KM binary is read: time of the day, heave up, and only what its statu
   CHECK((!nothing.roll_rad && !nothing.pitch_rad && !nothing.true_heading_rad && !nothing.heave_m));
   CHECK_FALSE(km_binary::place_of(sent));
   sent.heading_deg = -1.0F;
-  CHECK_FALSE(km_binary::read(km_frame(sent)));
+  CHECK_FALSE(km_binary::read(km_binary::write(sent)));
   sent.heading_deg = 1.0F;
   sent.roll_deg = std::numeric_limits<float>::quiet_NaN();
-  CHECK_FALSE(km_binary::read(km_frame(sent)));
+  CHECK_FALSE(km_binary::read(km_binary::write(sent)));
 }
 
 TEST_CASE("samples of a genuine .kmall file, sent alone, are KM binary") {
@@ -169,7 +192,7 @@ TEST_CASE("samples of a genuine .kmall file, sent alone, are KM binary") {
     const auto* motion = std::get_if<kmall::Motion>(&datagram->body);
     if (motion == nullptr) continue;
     for (const auto& one : motion->samples) {
-      stream.take(km_frame(one), [&](ByteView frame) {
+      stream.take(km_binary::write(one), [&](ByteView frame) {
         REQUIRE(*km_binary::read(frame) == one);
         ++sent;
       });
@@ -191,7 +214,7 @@ TEST_CASE("streams find their frames again behind noise, in pieces of any length
     resynchronises<km_binary::Stream>([](int i) {
       km_binary::Sample sample;
       sample.time_s = static_cast<std::uint32_t>(i);
-      return km_frame(sample);
+      return km_binary::write(sample);
     });
   }
 }

@@ -1,4 +1,4 @@
-#include "components/transport/udp_stream.h"
+#include "components/transport/send_stream.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,14 +7,14 @@ namespace ensonify {
 
 namespace {
 
-constexpr std::chrono::milliseconds kAgain{1};  // where the socket was busy
+constexpr std::chrono::milliseconds kAgain{1};  // where the sender was busy
 
 }  // namespace
 
-UdpStream::UdpStream(const UdpAddress& to, const UdpAddress& interface, int ttl, double bytes_per_s)
-    : sender_(to, interface, ttl), pacer_(bytes_per_s), thread_([this] { run(); }) {}
+SendStream::SendStream(std::unique_ptr<Sender> sender, double bytes_per_s)
+    : sender_(std::move(sender)), pacer_(bytes_per_s), thread_([this] { run(); }) {}
 
-UdpStream::~UdpStream() {
+SendStream::~SendStream() {
   {
     const std::lock_guard lock(mutex_);
     over_ = true;
@@ -24,7 +24,7 @@ UdpStream::~UdpStream() {
   if (thread_.joinable()) thread_.join();
 }
 
-void UdpStream::offer(std::vector<std::byte> datagram) {
+void SendStream::offer(std::vector<std::byte> datagram) {
   {
     const std::lock_guard lock(mutex_);
     if (over_ || !pacer_.offer(std::move(datagram), now())) ++counts_.lost;
@@ -32,7 +32,7 @@ void UdpStream::offer(std::vector<std::byte> datagram) {
   changed_.notify_one();
 }
 
-void UdpStream::finish() {
+void SendStream::finish() {
   {
     const std::lock_guard lock(mutex_);
     over_ = true;
@@ -42,12 +42,12 @@ void UdpStream::finish() {
   if (thread_.joinable()) thread_.join();
 }
 
-UdpStream::Counts UdpStream::counts() const {
+SendStream::Counts SendStream::counts() const {
   const std::lock_guard lock(mutex_);
   return counts_;
 }
 
-void UdpStream::run() {
+void SendStream::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto next = pacer_.next();
@@ -62,11 +62,11 @@ void UdpStream::run() {
       continue;
     }
     lock.unlock();
-    const UdpSender::Outcome outcome = send(*datagram);
+    const Sender::Outcome outcome = send(*datagram);
     const double waited_s = std::chrono::duration<double>(now() - datagram->offered).count();
     lock.lock();
-    counts_.refused = sender_.refused();
-    if (outcome != UdpSender::Outcome::sent) {
+    counts_.refused = sender_->refused();
+    if (outcome != Sender::Outcome::sent) {
       ++counts_.lost;
       continue;
     }
@@ -79,10 +79,10 @@ void UdpStream::run() {
 }
 
 /// Tries for as long as the datagram may wait.
-UdpSender::Outcome UdpStream::send(const Pacer::Datagram& datagram) {
+Sender::Outcome SendStream::send(const Pacer::Datagram& datagram) {
   for (;;) {
-    const UdpSender::Outcome outcome = sender_.send(datagram.bytes);
-    if (outcome != UdpSender::Outcome::busy || now() > datagram.offered + Pacer::kLongest) return outcome;
+    const Sender::Outcome outcome = sender_->send(datagram.bytes);
+    if (outcome != Sender::Outcome::busy || now() > datagram.offered + Pacer::kLongest) return outcome;
     std::this_thread::sleep_for(kAgain);
   }
 }

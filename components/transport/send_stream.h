@@ -2,17 +2,19 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 #include "components/transport/pacer.h"
-#include "components/transport/udp_sender.h"
+#include "components/transport/sender.h"
 
 namespace ensonify {
 
-/// Datagrams to one receiver, at a rate in wall time, sent by a thread of its own: who offers them never waits.
-class UdpStream {
+/// Datagrams, or pieces of a stream, by one way, at a rate in wall time, sent by a thread of its own: who offers them
+/// never waits.
+class SendStream {
  public:
   static constexpr std::chrono::milliseconds kLate{100};
 
@@ -20,16 +22,16 @@ class UdpStream {
     std::int64_t datagrams = 0;  // sent,
     std::int64_t bytes = 0;      // and theirs
     std::int64_t lost = 0;     // never sent: no room in the queue, no way there, too long, or still waiting at the end
-    std::int64_t refused = 0;  // sent, and nobody read there
+    std::int64_t refused = 0;  // sent, and not taken at the other end (Sender::refused)
     std::int64_t late = 0;     // sent more than kLate after they were offered
     double latest_s = 0.0;     // the longest that one waited
   };
 
-  UdpStream(const UdpAddress& to, const UdpAddress& interface, int ttl, double bytes_per_s);
+  SendStream(std::unique_ptr<Sender> sender, double bytes_per_s);
   /// What waits is not sent.
-  ~UdpStream();
-  UdpStream(const UdpStream&) = delete;
-  UdpStream& operator=(const UdpStream&) = delete;
+  ~SendStream();
+  SendStream(const SendStream&) = delete;
+  SendStream& operator=(const SendStream&) = delete;
 
   void offer(std::vector<std::byte> datagram);
   /// Sends what waits, for as long as that may take (Pacer::kLongest) and no longer; the rest is lost. Then it is over.
@@ -38,10 +40,10 @@ class UdpStream {
 
  private:
   void run();
-  UdpSender::Outcome send(const Pacer::Datagram& datagram);
+  Sender::Outcome send(const Pacer::Datagram& datagram);
   static Pacer::Time now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-  UdpSender sender_;  // the thread's
+  std::unique_ptr<Sender> sender_;  // the thread's
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Pacer pacer_;  // under the mutex, as are:

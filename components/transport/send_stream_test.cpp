@@ -1,4 +1,4 @@
-#include "components/transport/udp_stream.h"
+#include "components/transport/send_stream.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -11,6 +11,7 @@
 #include <string>
 
 #include "components/errors/exit_error.h"
+#include "components/transport/udp_sender.h"
 
 using namespace ensonify;
 using Catch::Matchers::Contains;
@@ -68,14 +69,14 @@ UdpAddress absent() { return Receiver().address(); }
 
 TEST_CASE("datagrams arrive whole and in their order, the longest among them") {
   Receiver receiver;
-  UdpStream stream(receiver.address(), kLoopback, 1, kRate);
+  SendStream stream(std::make_unique<UdpSender>(receiver.address(), kLoopback, 1), kRate);
   const std::vector<std::string> sent{"first", std::string(UdpSender::kMostBytes, 'x'), "", "last"};
   for (const std::string& one : sent) {
     stream.offer(bytes_of(one));
     CHECK(receiver.take() == one);
   }
   stream.finish();
-  const UdpStream::Counts counts = stream.counts();
+  const SendStream::Counts counts = stream.counts();
   CHECK(counts.datagrams == 4);
   CHECK(counts.bytes == static_cast<std::int64_t>(UdpSender::kMostBytes) + 9);
   CHECK(counts.lost + counts.refused == 0);
@@ -84,16 +85,16 @@ TEST_CASE("datagrams arrive whole and in their order, the longest among them") {
 
 TEST_CASE("a group on the loopback interface gets what is sent to it") {
   Receiver receiver("239.255.77.1");
-  UdpStream stream(receiver.address(), kLoopback, 1, kRate);
+  SendStream stream(std::make_unique<UdpSender>(receiver.address(), kLoopback, 1), kRate);
   stream.offer(bytes_of("to all"));
   CHECK(receiver.take() == "to all");
 }
 
 TEST_CASE("a receiver that is not there is counted and is no error") {
-  UdpStream stream(absent(), kLoopback, 1, kRate);
+  SendStream stream(std::make_unique<UdpSender>(absent(), kLoopback, 1), kRate);
   for (int i = 0; i < 50; ++i) stream.offer(bytes_of("nobody"));
   stream.finish();
-  const UdpStream::Counts counts = stream.counts();
+  const SendStream::Counts counts = stream.counts();
   CHECK(counts.datagrams == 50);
   CHECK(counts.refused >= 40);  // that of the last comes when nothing more is sent
   CHECK(counts.lost == 0);
@@ -102,8 +103,8 @@ TEST_CASE("a receiver that is not there is counted and is no error") {
 TEST_CASE("a way that is not there loses datagrams and is no error") {
   // Sending to everybody at once takes a permission that these sockets do not ask for.
   UdpSender sender(UdpAddress{0x7FFFFFFF, 9}, kLoopback, 1);
-  CHECK(sender.send(bytes_of("nowhere")) == UdpSender::Outcome::unreachable);
-  UdpStream stream(UdpAddress{0x7FFFFFFF, 9}, kLoopback, 1, kRate);
+  CHECK(sender.send(bytes_of("nowhere")) == Sender::Outcome::unreachable);
+  SendStream stream(std::make_unique<UdpSender>(UdpAddress{0x7FFFFFFF, 9}, kLoopback, 1), kRate);
   stream.offer(bytes_of("nowhere"));
   stream.finish();
   CHECK(stream.counts().lost == 1);
@@ -111,7 +112,7 @@ TEST_CASE("a way that is not there loses datagrams and is no error") {
 
 TEST_CASE("what no datagram holds is lost, and the next is sent") {
   Receiver receiver;
-  UdpStream stream(receiver.address(), kLoopback, 1, kRate);
+  SendStream stream(std::make_unique<UdpSender>(receiver.address(), kLoopback, 1), kRate);
   stream.offer(std::vector<std::byte>(UdpSender::kMostBytes + 1));
   stream.offer(bytes_of("next"));
   CHECK(receiver.take() == "next");
@@ -121,7 +122,7 @@ TEST_CASE("what no datagram holds is lost, and the next is sent") {
 
 TEST_CASE("offering never waits: what does not fit at the rate is lost, and the end comes in time") {
   Receiver receiver;
-  UdpStream stream(receiver.address(), kLoopback, 1, 10e3);  // two seconds are 20 kB
+  SendStream stream(std::make_unique<UdpSender>(receiver.address(), kLoopback, 1), 10e3);  // two seconds are 20 kB
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 1'000; ++i) stream.offer(std::vector<std::byte>(1'000));
   CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
@@ -130,7 +131,7 @@ TEST_CASE("offering never waits: what does not fit at the rate is lost, and the 
   CHECK(lost <= 981);
   stream.finish();
   CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(4));
-  const UdpStream::Counts counts = stream.counts();
+  const SendStream::Counts counts = stream.counts();
   CHECK(counts.datagrams + counts.lost == 1'000);
   CHECK(counts.late > 10);
   CHECK(counts.latest_s > 1.0);
