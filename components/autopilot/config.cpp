@@ -13,6 +13,11 @@ AutopilotConfig AutopilotConfig::read(ConfigReader& from, const World& world, co
   if (vehicle.floats && world.mission.depth_m > 0.0) {
     from.problem("", "the mission's depth_m needs a vehicle that dives; " + vehicle.name + " floats");
   }
+  if (const Vehicle* follows = follower(world); follows != nullptr) {
+    from.problem("", "the scenario's mission follows a recorded track, which " + follows->name +
+                         " goes along by itself: there is nothing to steer; allowed: a launch without this process");
+    return config;
+  }
   if (!config.plan.needs_chart() && world.mission.steps.empty()) {
     from.problem("", "the scenario's mission has no step");
   }

@@ -4,6 +4,7 @@
 
 #include "components/errors/overloaded.h"
 #include "components/nav_feed/wording.h"
+#include "kernels/vehicle/motion/lever.h"
 #include "kernels/vehicle/vertical/reduction.h"
 
 namespace ensonify {
@@ -279,13 +280,11 @@ std::optional<frames::MovingPose> FedTrack::at(SimTime now) const {
   // Off a body that lies level at the world's origin with its bow to north. First as if it were at the antenna.
   const motion::Excursion way{north_m_.at(t_s),         east_m_.at(t_s),           height_m(t_s),
                               value_at(roll_rad_, t_s), value_at(pitch_rad_, t_s), heading_rad_.at(t_s)};
-  frames::MovingPose moving = motion::superimpose(frames::MovingPose{}, way);
-  const frames::Vec3 &rate = moving.angular_rate_body_radps, &lever = antenna_body_m_;
-  const auto across = [&](const frames::Vec3& body) { return (moving.pose.enu_from_body * body).head<2>().eval(); };
-  moving.pose.position_enu_m.head<2>() -= across(lever);
-  moving.velocity_enu_mps.head<2>() -= across(rate.cross(lever));
-  moving.acceleration_enu_mps2.head<2>() -=
-      across(moving.angular_acceleration_body_radps2.cross(lever) + rate.cross(rate.cross(lever)));
+  const frames::MovingPose of_antenna = motion::superimpose(frames::MovingPose{}, way);
+  frames::MovingPose moving = motion::reference_point(of_antenna, antenna_body_m_);
+  moving.pose.position_enu_m.z() = of_antenna.pose.position_enu_m.z();  // heights are the reference point's already
+  moving.velocity_enu_mps.z() = of_antenna.velocity_enu_mps.z();
+  moving.acceleration_enu_mps2.z() = of_antenna.acceleration_enu_mps2.z();
   return moving;
 }
 

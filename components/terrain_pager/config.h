@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 namespace ensonify {
 
 class ConfigReader;
+namespace tracks {
+class FollowedTrack;
+}
 
 struct TerrainPagerParameters {
   int rate_hz = 2;
@@ -74,6 +78,10 @@ struct TerrainPagerConfig : TerrainPagerParameters {
   std::vector<SceneObject> objects;
   Mission mission;
   std::vector<Vehicle> vehicles;
+  /// The track that the mission follows, and by which of `vehicles`. One that cannot be followed is the vehicle's to
+  /// report.
+  std::shared_ptr<const tracks::FollowedTrack> followed;
+  std::string follower_name;
   vertical::Tide tide;
   double fastest_mps = 10.0;  // of all vehicles
 

@@ -20,6 +20,7 @@
 #include "components/terrain/source_of.h"
 #include "components/terrain_pager/meshes.h"
 #include "components/terrain_pager/objects.h"
+#include "components/tracks/followed_track.h"
 
 namespace ensonify::pager {
 namespace {
@@ -128,6 +129,42 @@ class Walk {
   MissionTrack track_;
 };
 
+/// Pieces of a recorded track, as it is followed: of 10 m, or of a two-thousandth of a long one.
+std::vector<Leg> followed_legs(const TerrainPagerConfig& config, const ConfigPlace& where, double lowest_water_m) {
+  using Height = tracks::FollowedTrack::Height;
+  constexpr double kShortLeg_m = 10.0, kMostLegs = 2000.0, kStep_s = 1.0;
+  const tracks::FollowedTrack& track = *config.followed;
+  const Vehicle& vehicle = *std::ranges::find(config.vehicles, config.follower_name, &Vehicle::name);
+  std::vector<frames::Vec3> places;
+  for (double t_s = 0.0; t_s < track.end_s(); t_s += kStep_s) places.push_back(track.at(t_s).pose.position_enu_m);
+  places.push_back(track.at(track.end_s()).pose.position_enu_m);
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < places.size(); ++i) length_m += (places[i] - places[i - 1]).head<2>().norm();
+  const double leg_m = std::max(kShortLeg_m, length_m / kMostLegs);
+  const auto depth_m = [&](const frames::Vec3& place) {
+    if (track.height() == Height::kDatum) return lowest_water_m - place.z();
+    if (track.height() == Height::kDepth) return -place.z();
+    return vehicle.floats ? 0.0 : config.mission.depth_m;
+  };
+  std::vector<Leg> legs;
+  std::size_t from = 0;
+  double way_m = 0.0, deepest_m = depth_m(places.front());
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    way_m += (places[i] - places[i - 1]).head<2>().norm();
+    deepest_m = std::max(deepest_m, depth_m(places[i]));
+    if (way_m < leg_m && i + 1 < places.size()) continue;
+    const runlines::Runline line{places[from].head<2>(), places[i].head<2>()};
+    if (runlines::length_m(line) > 0.0) {
+      legs.push_back({line, deepest_m + lowest_head_m(vehicle), std::nullopt, where, "mission.follow"});
+      legs.back().surveyed = true;
+    }
+    from = i;
+    way_m = 0.0;
+    deepest_m = depth_m(places[i]);
+  }
+  return legs;
+}
+
 /// A value of the file, if it is in force: a launch file may have put another in its place.
 const ConfigNode* in_force(const ConfigNode* of_file, const ConfigNode* in_run) {
   const bool same =
@@ -141,7 +178,7 @@ void find_steps(const ConfigNode& keys, std::vector<ConfigPlace>& steps) {
     const ConfigNode* found = keys.find(list);
     for (std::size_t i = 0; found != nullptr && i < found->items.size(); ++i) steps.push_back(found->items[i].place);
   }
-  for (const char* rule : {"lawnmower", "adaptive", "auto"}) {
+  for (const char* rule : {"lawnmower", "adaptive", "auto", "follow"}) {
     if (const ConfigNode* found = keys.find(rule)) steps.push_back(found->place);
   }
   const ConfigNode* own = keys.find("file");
@@ -160,6 +197,7 @@ MissionTrack track_of(const TerrainPagerConfig& config) {
   double least_reach_m = config.vehicles.empty() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const Vehicle& vehicle : config.vehicles) {
     least_reach_m = std::min(least_reach_m, lowest_head_m(vehicle));
+    if (vehicle.name == config.follower_name) continue;
     if (!vehicle.start) {
       if (!runlines.empty()) from.push_back(runlines::extended(runlines[0], config.mission.run_in_m, 0.0).start_enu_m);
       continue;
@@ -172,6 +210,7 @@ MissionTrack track_of(const TerrainPagerConfig& config) {
   MissionTrack track = Walk(config.mission, where, least_reach_m, from).track();
   track.places.insert(track.places.end(), starts.begin(), starts.end());
   track.lowest_water_m = lowest_water_m(config.tide, config.duration);
+  if (config.followed) track.legs = followed_legs(config, where.step(0), track.lowest_water_m);
   return track;
 }
 
@@ -190,6 +229,12 @@ const ConfigPlace& MissionPlaces::step(std::size_t i) const {
 const ConfigPlace& MissionPlaces::start(const std::string& vehicle) const {
   const auto found = starts.find(vehicle);
   return found == starts.end() ? mission : found->second;
+}
+
+std::optional<Vec2> first_place(const TerrainPagerConfig& config) {
+  if (config.followed) return config.followed->at(0.0).pose.position_enu_m.head<2>();
+  if (config.mission.runlines.empty()) return std::nullopt;
+  return config.mission.runlines.front().start_enu_m;
 }
 
 MissionPlaces mission_places(const std::string& scenario_file, const std::string& scenario_text) {

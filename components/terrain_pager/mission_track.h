@@ -17,9 +17,9 @@
 namespace ensonify::pager {
 
 /// All of a scenario's mission that is known before it is run, as the seabed and its meshes are held against it:
-/// lines with their run-ins and run-outs, orbits, the whole rectangle of an adaptive survey; places, starts, and where
-/// the vehicle is when it is sent to another depth. Not the turns between lines. A mission that begins its second round
-/// at another depth than the first has its second round as well.
+/// lines with their run-ins and run-outs, a recorded track, orbits, the whole rectangle of an adaptive survey; places,
+/// starts, and where the vehicle is when it is sent to another depth. Not the turns between lines. A mission that
+/// begins its second round at another depth than the first has its second round as well.
 struct MissionTrack {
   std::vector<Leg> legs;
   std::vector<VisitedPlace> places;
@@ -33,6 +33,9 @@ MissionTrack track_of(const TerrainPagerConfig& config);
 /// The lowest water above chart datum while a run of this length lasts; of one without an end, in its first 30 days,
 /// which have two spring tides. Sampled every five minutes: within 3 mm for a semidiurnal tide of 10 m amplitude.
 double lowest_water_m(const vertical::Tide& tide, std::optional<SimTime> duration);
+
+/// Where the mission begins, as far as it is known; nothing: it has neither line nor track.
+std::optional<Vec2> first_place(const TerrainPagerConfig& config);
 
 /// Places in a scenario's file of what is run, for messages. What the launch file has changed stands nowhere there, and
 /// has the file alone.

@@ -105,10 +105,9 @@ TerrainPagerNode::TerrainPagerNode(const Config& config, Ports& ports)
   open_cache();
   store_.emplace([this](const TileKey& key) { return made(key); },
                  pager::TileStore::Limits{config.threads, most_tiles()}, std::exchange(resident_.tiles, {}));
-  if (!config.mission.runlines.empty()) {
-    const runlines::Runline& line = config.mission.runlines.front();
+  if (const auto start = pager::first_place(config)) {
     const pager::Paging probably(grid_, box_, rules(feed_m));
-    store_->hold(probably.before_start(line.start_enu_m));
+    store_->hold(probably.before_start(*start));
   }
   if (!resident_.glance) made_glance_ = std::async(std::launch::async, [this] { return glance(); });
   const double shallowest_m = pager::check_mission(*terrain_, config, pager::Beyond::kRefused);

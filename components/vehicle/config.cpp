@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "components/config/read_parameters.h"
+#include "components/errors/exit_error.h"
+#include "components/tracks/followed_track.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -38,6 +40,23 @@ void check_abilities(ConfigReader& from, const World& world, const Vehicle& vehi
 
 }  // namespace
 
+void VehicleConfig::follow(ConfigReader& from, const World& world) {
+  const FollowTrack& wanted = *world.mission.follow;
+  if (!steered_by.empty()) from.problem("steered_by", "stands beside a mission that follows a track: nobody steers");
+  try {
+    const auto origin = world.site.origin_from_raster ? std::nullopt : std::optional(world.site.origin);
+    followed = std::make_shared<const tracks::FollowedTrack>(tracks::followed_track(wanted, origin, fastest_mps));
+  } catch (const ConfigError& error) {
+    return from.add(error);
+  } catch (const UserError& error) {
+    ConfigProblem problem = wanted.here;
+    problem.message = error.what();
+    return from.add(ConfigError({problem}));
+  }
+  const frames::MovingPose begin = followed->at(0.0);
+  start = motion::State{begin.pose.position_enu_m, 0.0, begin.velocity_enu_mps.head<2>().norm()};
+}
+
 VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const std::string& process) {
   VehicleConfig config;
   read_parameters<VehicleParameters>(from, config);
@@ -59,6 +78,11 @@ VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const 
   }
   config.start = vehicle.start;
   config.plan = MissionPlan::of(world, vehicle);
+  const Vehicle* follows = follower(world);
+  if (follows != nullptr && follows->name == vehicle.name) {
+    config.follow(from, world);
+    return config;
+  }
   if (!config.start && !config.plan.needs_chart()) {
     if (world.mission.runlines.empty()) {
       from.problem("", "the scenario gives vehicle " + vehicle.name + " neither a start nor a runline to start at");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,10 @@
 #include "scenarios/world/world.h"
 
 namespace ensonify {
+
+namespace tracks {
+class FollowedTrack;
+}
 
 /// The water that a vehicle is in.
 struct VehicleWater {
@@ -42,11 +47,14 @@ struct VehicleConfig : VehicleParameters {
   std::uint64_t seed = 1;
   std::string name;  // of the vehicle
   VehicleWater water;
-  std::optional<HydrodynamicVehicle> hydrodynamics;  // not given: kinematic
-  std::optional<motion::State> start;                // not given: at the first line's run-in
+  std::optional<HydrodynamicVehicle> hydrodynamics;       // not given: kinematic
+  std::shared_ptr<const tracks::FollowedTrack> followed;  // not given: it is commanded
+  std::optional<motion::State> start;                     // not given: at the first line's run-in
   MissionPlan plan;
 
   static VehicleConfig read(ConfigReader& from, const World& world, const std::string& process);
+  /// Takes the track that the mission follows; what is wrong with it is a problem of `from`.
+  void follow(ConfigReader& from, const World& world);
   /// Need of the chart: the vehicle's start is known only with it.
   bool needs_chart() const { return !start && plan.needs_chart(); }
 };

@@ -6,10 +6,12 @@
 #include "components/truth/pose_message.h"
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 #include "components/vehicle/kinematic/kinematic.h"
+#include "components/vehicle/recorded/recorded.h"
 
 namespace ensonify {
 
 std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motion::State& start, SimTime now) {
+  if (config.followed) return std::make_unique<RecordedDynamics>(config, now);
   if (config.hydrodynamics) return std::make_unique<HydrodynamicDynamics>(config, start, now);
   return std::make_unique<KinematicDynamics>(config, start, now);
 }
@@ -20,6 +22,9 @@ VehicleModel::VehicleModel(const VehicleConfig& config, const motion::State& sta
       floats_(config.water.floats.has_value()),
       waves_(config.waves),
       disturbance_(config.disturbance, random::Stream(config.seed, "vehicle/" + config.name + "/disturbance")),
+      added_(!config.followed                          ? Added::kAll
+             : config.followed->attitude_is_recorded() ? Added::kNothing
+                                                       : Added::kAttitudeAndHeave),
       now_(now) {}
 
 void VehicleModel::advance(SimTime now) {
@@ -34,8 +39,11 @@ void VehicleModel::command(const msg::Guidance& guidance) {
 }
 
 msg::Pose VehicleModel::pose() const {
+  if (added_ == Added::kNothing) return pose_message(now_, dynamics_->moving());
   const double t_s = seconds(now_);
-  return pose_message(now_, motion::superimpose(dynamics_->moving(), waves_.at(t_s) + disturbance_.at(t_s)));
+  motion::Excursion excursion = waves_.at(t_s) + disturbance_.at(t_s);
+  if (added_ == Added::kAttitudeAndHeave) excursion.surge_m = excursion.sway_m = excursion.heading_rad = {};
+  return pose_message(now_, motion::superimpose(dynamics_->moving(), excursion));
 }
 
 }  // namespace ensonify

@@ -28,6 +28,8 @@ class VehicleModel {
   bool floats_;
   motion::Waves waves_;
   motion::Disturbance disturbance_;
+  enum class Added { kAll, kAttitudeAndHeave, kNothing };
+  Added added_;  // of waves and disturbance; of a recorded track the place stays as it was recorded
   SimTime now_;
 };
 

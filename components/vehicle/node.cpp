@@ -1,6 +1,7 @@
 #include "components/vehicle/node.h"
 
 #include "components/runtime/log.h"
+#include "components/tracks/followed_track.h"
 
 namespace ensonify {
 namespace {
@@ -17,7 +18,8 @@ VehicleNode::VehicleNode(const Config& config, Ports& ports)
       helm_due_(kHelmRate),
       pilots_(config.steered_by.empty() ? std::vector<PilotKeys>{PilotKeys{}} : config.steered_by),
       poses_(ports.out<msg::Pose>("pose", {.rate = Rate{config.pose_rate_hz, 1}})) {
-  declare_command();
+  if (config.followed) ports.may_finish();
+  else declare_command();
   if (config.needs_chart()) {
     ports.in<msg::Chart>("chart", [this](const msg::Chart& chart) { chart_ = chart; }, {.delay = kReaction});
   }
@@ -57,6 +59,11 @@ SimTime VehicleNode::step(SimTime now) {
     vehicle_->advance(now);
     if (command) vehicle_->command(*command);
     poses_.send(vehicle_->pose());
+  }
+  if (config_.followed && !finished_ && seconds(now) >= config_.followed->end_s()) {
+    finished_ = true;
+    log::event(ports_, "followed", "to_s={:.3f}", seconds(now));
+    ports_.finish();
   }
   return poses_due_.next();
 }

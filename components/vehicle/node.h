@@ -32,6 +32,7 @@ class VehicleNode {
   std::optional<VehicleModel> vehicle_;  // empty until it is known where to start
   Pilots pilots_;
   std::int64_t refused_ = 0;
+  bool finished_ = false;  // at the end of a recorded track
   std::optional<msg::Chart> chart_;
   Ports::Out<msg::Pose> poses_;
   std::optional<Ports::Out<msg::Helm>> helms_;  // only with several pilots

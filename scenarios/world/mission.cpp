@@ -112,6 +112,7 @@ void lay(PlanOfCoverage plan, const Places& places, Mission& mission) {
   if (places.good()) mission.steps = steps_of({first_line(plan.plan)});
   mission.adaptive = plan.plan;
 }
+void lay(const PlanOfTrack& plan, const Places&, Mission& mission) { mission.follow = plan.plan; }
 void lay(const StepsPlan& plan, const Places& places, Mission& mission) {
   for (std::size_t i = 0; i < plan.steps.size(); ++i) {
     MissionStep& step = mission.steps.emplace_back(plan.steps[i]);
@@ -122,7 +123,8 @@ void lay(const NoPlan&, const Places&, Mission&) {}
 
 int plans_in(const ConfigReader& from) {
   int plans = 0;
-  for (const char* plan : {"runlines", "lawnmower", "auto", "adaptive", "steps"}) plans += int{from.has(plan)};
+  for (const char* plan : {"runlines", "lawnmower", "auto", "adaptive", "follow", "steps"})
+    plans += int{from.has(plan)};
   return plans;
 }
 
@@ -164,6 +166,13 @@ void AdaptivePlan::check(const ConfigReader& from) const {
     from.problem("cell_m", "makes more than 4 million cells; allowed: larger cells or a smaller rectangle");
   }
 }
+
+void FollowTrack::check(const ConfigReader& from) const {
+  if (from.good() && to_s && *to_s <= from_s)
+    from.problem("to_s", fmt::format("{:g} is not after from_s {:g}; allowed: more", *to_s, from_s));
+}
+
+void FollowTrack::complete(ConfigReader& from) { here = from.problem_at("file", ""); }
 
 void GoAt::check(const ConfigReader& from) const {
   if (depth_m && altitude_m) from.problem("altitude_m", "stands beside depth_m; give one or the other");
@@ -252,7 +261,7 @@ Mission MissionKeys::mission(const std::optional<frames::Geodetic>& origin) cons
   Mission mission = values;
   if (plans_ != 1) {
     from.problem("", std::string(plans_ == 0 ? "has no plan" : "has several plans") +
-                         "; give one of runlines, lawnmower, auto, adaptive, steps");
+                         "; give one of runlines, lawnmower, auto, adaptive, follow, steps");
   }
   const Places places(plan_from_ ? *plan_from_ : from, geodetic, origin);
   std::visit([&](const auto& form) { lay(form, places, mission); }, plan);

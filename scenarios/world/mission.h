@@ -8,6 +8,7 @@
 
 #include "components/config/parameters.h"
 #include "kernels/base/frames/local_projection.h"
+#include "kernels/base/frames/pose.h"
 #include "kernels/vehicle/motion/kinematics.h"
 #include "kernels/vehicle/runlines/runline.h"
 #include "messages/sonar.h"
@@ -69,6 +70,49 @@ struct AdaptivePlan {
     visit("overlap", "", in(0, 0.9), "overlap of a half swath with what is covered", self.overlap);
     visit("cell_m", "m", in(0.1, 1000), "side of a cell of the coverage", self.cell_m);
     visit("soundings", "", in(1, 10000), "accepted ones that a covered cell has at least", self.soundings);
+  }
+};
+
+/// `follow` in the file: a track that was recorded, gone along again.
+struct FollowTrack {
+  enum class Attitude { kRecorded, kModelled };
+  enum class Height { kRecorded, kWater };
+
+  std::string file;
+  std::string topic;    // of a record; "": the only one with poses
+  std::string vehicle;  // "": the only one, or the only one without a start
+  double from_s = 0.0;
+  std::optional<double> to_s;
+  std::optional<Attitude> attitude;  // not given: recorded, where the file has it
+  std::optional<Height> height;      // the same
+  double longest_gap_s = 10.0;
+  frames::Vec3 position_body_m = frames::Vec3::Zero();
+  ConfigProblem here;  // where `file` stands, for what is found when it is read
+  static constexpr const char* kShort = "file";
+
+  void check(const ConfigReader& from) const;
+  void complete(ConfigReader& from);
+  static void parameters(auto& self, auto&& visit) {
+    visit("file", "", must(path()), "the record: CSV, a log of NMEA lines, an MCAP record, .all, .kmall or XTF",
+          self.file);
+    visit("topic", "", any(), "topic of an MCAP record, of poses or estimates; \"\": the only one of poses",
+          self.topic);
+    visit("vehicle", "", any(), "vehicle that follows; \"\": the only one, or the only one without a start",
+          self.vehicle);
+    visit("from_s", "s", in(0, 1e9), "beginning of the part that is followed, from the track's first place on",
+          self.from_s);
+    visit("to_s", "s", in(0, 1e9), "end of the part that is followed; left out: the track's end", self.to_s);
+    visit("attitude", "", one_of({{"recorded", Attitude::kRecorded}, {"modelled", Attitude::kModelled}}),
+          "roll, pitch and heave: the file's, or those of the vehicle's model; left out: the file's where it has any",
+          self.attitude);
+    visit("height", "", one_of({{"recorded", Height::kRecorded}, {"water", Height::kWater}}),
+          "height of the vehicle: the file's, or from the water level; left out: the file's where it has one",
+          self.height);
+    visit("longest_gap_s", "s", in(0.01, 3600), "time without a sample that is bridged; longer ones are refused",
+          self.longest_gap_s);
+    visit("position_m", "m", in(-500, 500),
+          "the place on the body whose track it is: forward, starboard, down (an antenna's third number is negative)",
+          self.position_body_m);
   }
 };
 
@@ -203,6 +247,7 @@ struct Mission {
   std::vector<runlines::Runline> runlines;  // all straight pieces of the steps' lines, in order
   std::optional<AutoPlan> auto_plan;        // set: `steps` is empty until it has been resolved
   std::optional<AdaptivePlan> adaptive;     // set: `steps` is the first line only
+  std::optional<FollowTrack> follow;        // set: `steps` is empty
   AbortRules abort;
   WhenSilent when_silent = WhenSilent::kGoOn;
   std::optional<runlines::Vec2> home_enu_m;  // not given: where the autopilot first found the vehicle

@@ -56,6 +56,10 @@ struct PlanOfCoverage {
     visit("adaptive", "parallel lines over a rectangle, each laid where the coverage so far ends", self.plan);
   }
 };
+struct PlanOfTrack {
+  FollowTrack plan;
+  static void parameters(auto& self, auto&& visit) { visit("follow", "a recorded track, gone along again", self.plan); }
+};
 struct StepsPlan {
   std::vector<MissionStep> steps;
   static void parameters(auto& self, auto&& visit) { visit("steps", "list of what is done, in order", self.steps); }
@@ -70,7 +74,7 @@ struct NoPlan {
 /// what lies farther than 100 km from `origin` is a problem, which says if latitude and longitude look swapped. Without
 /// an origin (it comes from a raster) geodetic places are a problem.
 struct MissionKeys {
-  using Plan = std::variant<RunlinesPlan, LawnmowerPlan, PlanOfRaster, PlanOfCoverage, StepsPlan, NoPlan>;
+  using Plan = std::variant<RunlinesPlan, LawnmowerPlan, PlanOfRaster, PlanOfCoverage, PlanOfTrack, StepsPlan, NoPlan>;
 
   bool in_scenario = true;  // else in a file of its own
   bool geodetic = false;

@@ -149,7 +149,8 @@ TEST_CASE("what cannot be run is reported before time starts") {
             .find("steps[0].mark: stands beside line; give one or the other") != std::string::npos);
   CHECK(problems_of("  steps:\n    - {hover: 3}\n").find("is no step; allowed: line, pass, keep") != std::string::npos);
   CHECK(problems_of("  steps:\n    - mark: x\n  lawnmower: {length_m: 9, spacing_m: 9, count: 1}\n")
-            .find("has several plans; give one of runlines, lawnmower, auto, adaptive, steps") != std::string::npos);
+            .find("has several plans; give one of runlines, lawnmower, auto, adaptive, follow, steps") !=
+        std::string::npos);
   CHECK(problems_of("  speed_mps: 2\n").find("has no plan; give one of") != std::string::npos);
 }
 

@@ -71,7 +71,7 @@ struct ScenarioKeys {
     visit("seabed", "", must(any()), "the seabed", self.seabed);
     visit("objects", "things on the seabed or in the water that labels know, by names of your own", self.objects);
     visit("vehicles", "vehicles by names of your own", self.vehicles);
-    visit("mission", "", must(any()), "one of runlines, lawnmower, auto, adaptive, steps, and how they are run",
+    visit("mission", "", must(any()), "one of runlines, lawnmower, auto, adaptive, follow, steps, and how they are run",
           self.mission);
   }
 };

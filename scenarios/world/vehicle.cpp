@@ -72,4 +72,16 @@ Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::str
   return {};
 }
 
+const Vehicle* follower(const World& world) {
+  if (!world.mission.follow) return nullptr;
+  const std::string& wanted = world.mission.follow->vehicle;
+  const Vehicle* found = nullptr;
+  for (const Vehicle& vehicle : world.vehicles) {
+    const bool may = wanted.empty() ? world.vehicles.size() == 1 || !vehicle.start : vehicle.name == wanted;
+    if (may && found != nullptr) return nullptr;
+    if (may) found = &vehicle;
+  }
+  return found;
+}
+
 }  // namespace ensonify

@@ -118,6 +118,16 @@ void check_sonars(const ConfigReader& from, const Mission& mission, const std::s
   if (!unknown.empty()) from.add(ConfigError(unknown));
 }
 
+void check_follower(const ConfigReader& from, const World& world) {
+  if (!world.mission.follow || follower(world) != nullptr) return;
+  std::vector<std::string> names;
+  for (const Vehicle& vehicle : world.vehicles) names.push_back(vehicle.name);
+  const std::string& wanted = world.mission.follow->vehicle;
+  const std::string cause = wanted.empty() ? "is missing: several vehicles could follow the track"
+                                           : fmt::format("\"{}\" is no vehicle of the scenario", wanted);
+  from.problem("mission", fmt::format("follow.vehicle {}; allowed: {}", cause, fmt::join(names, ", ")));
+}
+
 void check_whole(ConfigReader& from, const World& world) {
   if (from.good()) check_tide(from, world);
   std::set<std::string> heads;
@@ -127,9 +137,10 @@ void check_whole(ConfigReader& from, const World& world) {
         from.problem("vehicles", "two vehicles carry a head named " + head);
       }
     }
-    check_mission(from, world.mission, vehicle, world.current);
-    check_heads(from, world.mission, vehicle);
+    if (!world.mission.follow) check_mission(from, world.mission, vehicle, world.current);
+    if (!world.mission.follow || vehicle.floats) check_heads(from, world.mission, vehicle);
   }
+  check_follower(from, world);
   const bool nobody_dives = std::ranges::all_of(world.vehicles, [](const Vehicle& v) { return v.floats.has_value(); });
   if (world.mission.depth_m > 0.0 && nobody_dives && !world.vehicles.empty()) {
     from.problem("mission", "depth_m needs a vehicle that dives; " + world.vehicles.front().name + " floats");

@@ -122,6 +122,10 @@ World read_world(ConfigReader& from, const std::string& file, std::string* writt
 Vehicle own_vehicle(const ConfigReader& from, const World& world, const std::string& process,
                     const std::string& wanted);
 
+/// The vehicle that goes along the mission's recorded track: the one it names, else the only one, else the only one
+/// without a start. nullptr: there is no track to follow.
+const Vehicle* follower(const World& world);
+
 /// Part of the scenario that determines the survey lines.
 struct MissionPlan {
   std::string scenario_file;
