@@ -3,6 +3,7 @@
     python examples/train_detector make imaging -o out/detector      # or sidescan; 40 minutes on two cores; call it again to go on
     python examples/train_detector test out/detector                 # on generated scenes of other places
     python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
+    python examples/train_detector worth --generated out/detector --real REAL_FOLDER -o out/worth     # how many real pictures train as well
 """
 import argparse
 import pickle
@@ -17,6 +18,7 @@ import judging
 import labelled
 import scenes
 import training
+import worth
 from detector import Detector
 
 ALARMS_ON_EMPTY = 0.05  # share of generated validation pictures without things that may have one, by which the threshold is set
@@ -28,7 +30,8 @@ def make(given: argparse.Namespace) -> int:
     sets = scenes.make(given.kind, given.pictures, given.out, given.jobs)
     names = scenes.classes(sets)
     made = time.monotonic()
-    net = training.train(scenes.generated.masters(sets, "train"), names, given.out / "training.pt", given.steps, given.seed, given.jobs)
+    examples = scenes.generated.Examples(scenes.generated.masters(sets, "train"), names, training.SIZE, np.random.default_rng(given.seed))
+    net = training.train(training.Batches(examples, given.seed), names, given.out / "training.pt", given.steps, given.seed, given.jobs)
     detector = Detector(net, names, 0.5, {"kind": given.kind, "pictures": given.pictures, "steps": given.steps, "seed": given.seed,
                                           "parameters": sum(weight.numel() for weight in net.parameters())})
     detector.threshold = threshold_of(detector, scenes.shown(sets, "val", names, given.validate))
@@ -75,6 +78,16 @@ def test(given: argparse.Namespace) -> int:
     return 0
 
 
+def value(given: argparse.Namespace) -> int:
+    real = labelled.chosen(labelled.read(given.real), renamed(given.rename), given.drop, given.only, given.ignore)
+    if given.groups is not None:
+        labelled.with_groups(given.groups, real)
+    result = worth.measure(given.generated, real, given.out, given.steps, given.size, given.seed, given.jobs)
+    print(worth.as_text(result))
+    (given.out / "worth.json").write_text(judging.as_json(result))
+    return 0
+
+
 def renamed(pairs: list) -> dict:
     wrong = [pair for pair in pairs if "=" not in pair]
     if wrong:
@@ -96,15 +109,29 @@ def arguments() -> argparse.ArgumentParser:
     of = verbs.add_parser("test", help="score a detector on generated or on labelled pictures")
     of.add_argument("detector", type=Path, help="folder that `make` wrote, or its detector.pt")
     of.add_argument("folder", type=Path, nargs="?", help="labelled pictures; left out: generated scenes of other places")
-    of.add_argument("--rename", action="append", default=[], metavar="THEIRS=OURS", help="class of theirs that is one of the detector's")
-    of.add_argument("--drop", action="append", default=[], metavar="CLASS", help="counts as nothing: finding it is a false alarm")
-    of.add_argument("--only", action="append", default=[], metavar="CLASS", help="all others are dropped")
-    of.add_argument("--ignore", action="append", default=[], metavar="CLASS", help="neither wanted nor a false alarm")
+    choose_classes(of)
     of.add_argument("--count", type=int, default=400, help="number of generated pictures")
     of.add_argument("--json", type=Path, help="scores as JSON")
     of.add_argument("--pictures", type=Path, help="folder for pictures with labels and finds drawn in")
     of.add_argument("--jobs", type=int, default=2)
+    of = verbs.add_parser("worth", help="how many groups of real pictures train a net as well as a generated set")
+    of.add_argument("--generated", type=Path, required=True, help="set of `ensonify dataset`, or folder that `make` wrote")
+    of.add_argument("--real", type=Path, required=True, help="labelled pictures, in any form that `test` reads")
+    of.add_argument("--groups", type=Path, help="CSV of file, group; default: the real folder's own, or what looks alike")
+    of.add_argument("-o", "--out", type=Path, required=True, help="folder of the nets, which go on where they were interrupted, and worth.json")
+    of.add_argument("--steps", type=int, default=600, help="of each training")
+    of.add_argument("--size", type=int, default=training.SIZE, choices=(64, 128, 256), help="sides of training pictures in pixels")
+    of.add_argument("--seed", type=int, default=1)
+    of.add_argument("--jobs", type=int, default=2)
+    choose_classes(of)
     return parser
+
+
+def choose_classes(of: argparse.ArgumentParser) -> None:
+    of.add_argument("--rename", action="append", default=[], metavar="THEIRS=OURS", help="class of theirs that is one of the detector's")
+    of.add_argument("--drop", action="append", default=[], metavar="CLASS", help="counts as nothing: finding it is a false alarm")
+    of.add_argument("--only", action="append", default=[], metavar="CLASS", help="all others are dropped")
+    of.add_argument("--ignore", action="append", default=[], metavar="CLASS", help="neither wanted nor a false alarm")
 
 
 def main() -> int:
@@ -112,7 +139,7 @@ def main() -> int:
     if given.verb == "make" and given.pictures is None:
         given.pictures = {"imaging": 2400, "sidescan": 120}[given.kind]
     try:
-        return make(given) if given.verb == "make" else test(given)
+        return {"make": make, "test": test, "worth": value}[given.verb](given)
     except (labelled.Unreadable, scenes.Failed) as error:
         print(f"train_detector: {error}", file=sys.stderr)
         return 2

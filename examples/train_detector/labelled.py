@@ -278,13 +278,18 @@ def _classes(folder: Path) -> list:
 
 
 def _grouped(folder: Path, pictures: list) -> list:
-    """groups.csv: file, group."""
-    table = folder / "groups.csv"
-    if table.is_file():
+    return with_groups(folder / "groups.csv", pictures) if (folder / "groups.csv").is_file() else pictures
+
+
+def with_groups(table: Path, pictures: list) -> list:
+    """By a CSV of file, group."""
+    try:
         with open(table, newline="") as file:
             groups = {Path(row[0]).name: row[1] for row in csv.reader(file) if len(row) >= 2}
-        for picture in pictures:
-            picture.group = groups.get(picture.file.name, picture.group)
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise Unreadable(f"{table}: {error}; allowed is a CSV of file, group") from None
+    for picture in pictures:
+        picture.group = groups.get(picture.file.name, picture.group)
     return pictures
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import torch
 from torch.nn import functional
 
-from generated import Example, Examples
+from generated import Example
 from net import STRIDE, Net, peaks, seen
 
 SIZE, BATCH = 256, 16  # pixels of a training picture's sides; pictures of a step
@@ -21,7 +21,7 @@ A_THING, NOTHING = 0.5, 0.4  # overlap with a thing from which, and below which,
 
 def targets(examples: list) -> dict:
     """What the net should say of a batch, as tensors. Each thing has the weight of one, in as many cells as it has."""
-    side, count = SIZE // STRIDE, len(examples)
+    side, count = len(examples[0].owner) // STRIDE, len(examples)
     there = np.zeros((count, side, side), np.float32)
     counts = np.ones((count, side, side), np.float32)  # 0 where a thing does not count
     weight = np.zeros((count, side, side), np.float32)  # of the boxes there
@@ -130,16 +130,15 @@ def overlap(one: torch.Tensor, other: torch.Tensor) -> torch.Tensor:
 
 
 class Batches:
-    """Batch `step` of a training, the same whoever makes it."""
+    """Batch `step` of a training, the same whoever makes it. examples: has `size` and `random` to be set, and `draw()`."""
 
-    def __init__(self, pictures: list, names: list, seed: int):
-        self.seed = seed
-        self.examples = Examples(pictures, names, SIZE, np.random.default_rng(seed))
+    def __init__(self, examples, seed: int, size: int = SIZE):
+        self.examples, self.seed, self.size = examples, seed, size
 
     def __call__(self, step: int) -> tuple:
         torch.set_num_threads(1)
         random = self.examples.random = np.random.default_rng([self.seed, step])
-        drawn = [self._four() if random.random() < FOURS else self._one(SIZE) for _ in range(BATCH)]
+        drawn = [self._four() if random.random() < FOURS else self._one(self.size) for _ in range(BATCH)]
         wanted = targets([example for example, _ in drawn])
         return np.stack([of for _, of in drawn]), {name: value.numpy() for name, value in wanted.items()}
 
@@ -151,8 +150,8 @@ class Batches:
 
     def _four(self) -> tuple:
         """Four small ones as one, each seen alone: what `find` sees of small pictures, and more things a step."""
-        half = SIZE // 2
-        boxes, kinds, owner, of = [], [], np.zeros((SIZE, SIZE), np.int16), np.zeros((2, SIZE, SIZE), np.float32)
+        half, whole = self.size // 2, (self.size, self.size)
+        boxes, kinds, owner, of = [], [], np.zeros(whole, np.int16), np.zeros((2, *whole), np.float32)
         for top, left in ((0, 0), (0, half), (half, 0), (half, half)):
             example, small = self._one(half)
             part = np.s_[top:top + half, left:left + half]
@@ -172,10 +171,10 @@ def _batch(step: int) -> tuple:
     return _batches(step)
 
 
-def train(pictures: list, names: list, file: Path, steps: int, seed: int, jobs: int = 2, say=print) -> Net:
+def train(batches: Batches, names: list, file: Path, steps: int, seed: int, jobs: int = 2, say=print) -> Net:
     """A net after so many steps. `file` keeps the state every minute: a training that was cut off goes on from there. All processors but
     one compute, one draws the pictures."""
-    with multiprocessing.get_context("fork").Pool(1, _prepare, (Batches(pictures, names, seed),)) as drawing:
+    with multiprocessing.get_context("fork").Pool(1, _prepare, (batches,)) as drawing:
         torch.set_num_threads(max(1, jobs - 1))
         torch.manual_seed(seed)
         net = Net(len(names)).to(memory_format=torch.channels_last)

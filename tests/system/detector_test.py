@@ -43,6 +43,16 @@ def painted(split: Path, random: np.random.Generator) -> None:
         (split / "facts" / f"{number}.json").write_text(json.dumps(facts))
 
 
+def classes_of_cut_outs(folder: Path, random: np.random.Generator, of_each: int) -> None:
+    """A folder for each class: a thing, that fills most of a picture of 40 x 40."""
+    y, x = np.mgrid[0:40, 0:40] - 19.5
+    for name, there in (("disc", np.hypot(y, x) < 12), ("bar", (abs(y) < 4) & (abs(x) < 16))):
+        (folder / name).mkdir(parents=True)
+        for number in range(of_each):
+            level = random.rayleigh(20, y.shape) * np.where(there, 6, 1)
+            Image.fromarray(level.clip(0, 255).astype(np.uint8)).save(folder / name / f"{name}_{number}.png")
+
+
 def random_picture(random: np.random.Generator, kinds: int):
     """Things, some that do not count, and finds near to them or anywhere."""
     import scores
@@ -208,6 +218,17 @@ class Readers(unittest.TestCase):
 
 
 @unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
+class Worth(unittest.TestCase):
+    def test_curve_is_linear_in_log_k(self):
+        import worth
+        curve = {10: 0.2, 30: 0.1, 100: 0.4, 300: 0.6}  # a fall counts as level
+        self.assertAlmostEqual(worth.equal(curve, 0.5), np.sqrt(100 * 300))
+        self.assertAlmostEqual(worth.equal(curve, 0.3), np.sqrt(30 * 100))
+        self.assertEqual((worth.equal(curve, 0.15), worth.equal(curve, 0.61)), (0.0, float("inf")))
+        self.assertEqual([worth.as_word(k, [10, 300]) for k in (0.0, 42.4, float("inf"))], ["< 10", "42", "> 300"])
+
+
+@unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
 class Training(unittest.TestCase):
     def test_bright_things_are_learnt(self):
         """Sixty steps on discs and bars that stand out by 20 dB: another picture's are found, and by an untrained net are not."""
@@ -223,13 +244,33 @@ class Training(unittest.TestCase):
             self.assertEqual(scenes.classes([Path(folder)]), names)
             found = {}
             for steps in (1, 60):
-                net = training.train(scenes.generated.masters([Path(folder)], "train"), names, Path(folder, f"{steps}.pt"), steps, seed=1,
-                                     say=lambda *_, **__: None)
+                examples = scenes.generated.Examples(scenes.generated.masters([Path(folder)], "train"), names, 256, np.random.default_rng(1))
+                net = training.train(training.Batches(examples, 1), names, Path(folder, f"{steps}.pt"), steps, seed=1, say=lambda *_, **__: None)
                 detector = Detector(net, names, 0.5, {})
                 pictures = [judged(one, detector.find(one.grey()), names, one.grey().shape, [], 0.5)
                             for one in scenes.shown([Path(folder)], "test", names, 40)]
                 found[steps] = scores.recall_at(pictures, 1.0)
             self.assertGreater(found[60], max(0.5, found[1] + 0.3), found)
+
+    def test_worth_of_pictures_like_the_real_ones(self):
+        """Real pictures are painted as the generated ones are. Short trainings of small pictures: numbers are bounds of sense, not of quality."""
+        with tempfile.TemporaryDirectory() as folder:
+            painted(Path(folder, "set/train"), np.random.default_rng(1))
+            classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 12)
+            done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "25", "--size", "64", "--jobs", "2")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            result = json.loads(Path(folder, "out/worth.json").read_text())
+            self.assertEqual((result["score"], result["classes"], result["held_out"]), ("balanced accuracy", ["bar", "disc"], 10))
+            self.assertEqual(result["left_out"], [30, 100, 300])
+            self.assertEqual(set(result["scores"]), {"generated", "real 10", "generated and real 10"})
+            for of in result["scores"].values():
+                self.assertTrue(0 <= of["interval"][0] <= of["value"] <= of["interval"][1] <= 1, of)
+            self.assertIn(result["worth"], ("< 10", "> 10", "10"))
+            for wrong, said in ((("--real", f"{folder}/out"), "no labelled pictures"), (("--groups", f"{folder}/none.csv"), "none.csv"),
+                                (("--generated", f"{folder}/real"), "no generated set")):
+                done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", *wrong)
+                self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+                self.assertIn(said, done.stderr)
 
     def test_one_command_makes_and_one_tests(self):
         """Too few steps to find anything; a training goes on where it was cut off."""
