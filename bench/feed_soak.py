@@ -1,0 +1,136 @@
+"""What nav_feed bears, outside CI's time: a day of a log at full speed, and a flood of sentences in real time.
+
+  feed_soak.py --build build/dev [day] [flood]      both, where none is named; exit code 1 when something does not hold
+
+day: 24 h of GGA, HDT and PASHR at 1 Hz from a file, across midnight and a leap second: each fix once, a second after the one
+before; but of 23:59:60 and 00:00:00, which have one time here, the second is passed over as double. The file is played by its own times, so it covers decoding and time bases, not sockets.
+flood: 100,000 sentences a second in datagrams of 60 kB beside fixes at 1 Hz, for 15 s: no late event, bounded memory.
+"""
+import argparse
+import json
+import math
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "clients/python"), str(ROOT / "tests/support")]
+import ensonify  # noqa: E402
+from nmea import free_port, sentence  # noqa: E402
+
+DAY_S, LEAP_AT_S = 86_400, 43_200  # the log begins at noon; the leap second is the last of its day
+LAUNCH = """
+ensonify: launch/1
+scenario: {root}/scenarios/tideway/scenario.yaml
+clock: {{ rate: {rate} }}
+duration_s: {seconds}
+processes:
+  boat: {{ run: nav_feed, config: {{ pose_rate_hz: {hz}, sources: {{ ship: {{ {way} }} }} }} }}
+  recorder: {{ run: recorder, config: {{ file: run.mcap, topics: [boat/fix, boat/health] }} }}
+"""
+
+
+def time_of(second):
+    """hhmmss.sss of a second of the log, 23:59:60 among them."""
+    if second == LEAP_AT_S:
+        return "235960.000"
+    of_day = (LEAP_AT_S + second - (1 if second > LEAP_AT_S else 0)) % DAY_S
+    return f"{of_day // 3600:02}{of_day // 60 % 60:02}{of_day % 60:02}.000"
+
+
+def block(second):
+    """A boat in a circle of 200 m at 2 m/s."""
+    turn = second / 100.0
+    north, east = 200 * math.sin(turn), 200 * math.cos(turn)
+    latitude, longitude = 48.6 + north / 111_200, 3.9 - east / 73_700
+    gga = f"GPGGA,{time_of(second)},{int(latitude)}{latitude % 1 * 60:010.7f},N,{int(longitude):03}{longitude % 1 * 60:010.7f},W,4,12,0.8,1.0,M,50.1,M,,"
+    heading = math.degrees(-turn) % 360
+    pashr = f"PASHR,{time_of(second)},{heading:.2f},T,{5 * math.sin(turn * 60):+.2f},+0.50,+0.10,0.02,0.02,0.05,2,1"
+    return sentence(gga) + sentence(f"HEHDT,{heading:.2f},T") + sentence(pashr)
+
+
+def start(build, folder, **values):
+    launch = folder / "launch.yaml"
+    launch.write_text(LAUNCH.format(root=ROOT, **values))
+    return subprocess.Popen([str(build / "bin/ensonify"), "run", str(launch), "--out", str(folder / "out")], stdout=subprocess.DEVNULL)
+
+
+def results(folder):
+    with ensonify.Record(folder / "out/run.mcap") as record:
+        stamps = [fix.stamp_ns for _, _, fix in record.messages("boat/fix")]
+        health = [message for _, _, message in record.messages("boat/health")]
+    return stamps, {counter.name: counter.count for counter in health[-1].counters}
+
+
+def day(build, folder):
+    log = folder / "day.nmea"
+    with open(log, "w", encoding="ascii", newline="") as file:
+        for second in range(DAY_S + 20):
+            file.write(block(second))
+    began = time.monotonic()
+    code = start(build, folder, rate="free", seconds=DAY_S, hz=10, way=f"file: {log}").wait(timeout=1800)
+    wall_s = time.monotonic() - began
+    stamps, counts = results(folder)
+    steps = {b - a for a, b in zip(stamps, stamps[1:])}
+    print(f"day: exit {code}, {DAY_S / wall_s:.0f} x real time, {len(stamps)} fixes, steps of {sorted(steps)} ns, {json.dumps(counts)}")
+    at_the_leap_second = {"fixes_double": 1, "sentences_late": 2}  # the fix, and its heading and motion
+    wrong = [name for name in ("fixes_double", "fixes_at_another_time", "fixes_beyond_the_fastest_speed", "sentences_late", "time_jumps",
+                               "place_jumps", "motions_at_another_time") if counts.get(name, 0) != at_the_leap_second.get(name, 0)]
+    return code == 0 and steps == {10**9} and len(stamps) >= DAY_S - 3 and DAY_S / wall_s >= 100 and not wrong
+
+
+def memory_mb(program):
+    """The most that a program of this machine holds, resident."""
+    for entry in pathlib.Path("/proc").iterdir():
+        try:
+            if entry.name.isdigit() and program in (entry / "cmdline").read_text():
+                status = (entry / "status").read_text()
+                return int(status.split("VmHWM:")[1].split()[0]) / 1024
+        except (OSError, IndexError):
+            continue
+    return 0.0
+
+
+def flood(build, folder):
+    seconds, port = 15, free_port()
+    run = start(build, folder, rate=1, seconds=seconds, hz=100, way=f"udp: {port}")
+    line = sentence("HEHDT,90.00,T").encode()
+    datagram = line * (60_000 // len(line))
+    sent, most_mb, second, began = 0, 0.0, 0, time.monotonic()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
+        while run.poll() is None:
+            at_s = time.monotonic() - began
+            if at_s >= second:
+                out.sendto(block(second).encode(), ("127.0.0.1", port))
+                most_mb = max(most_mb, memory_mb("ensonify-nav_feed"))
+                second += 1
+            if sent < 100_000 * at_s:
+                out.sendto(datagram, ("127.0.0.1", port))
+                sent += len(datagram) // len(line)
+            else:
+                time.sleep(0.001)
+    stamps, counts = results(folder)
+    clock = json.loads((folder / "out/clock.json").read_text())
+    late = {one["name"]: one["late_events"] for one in clock["participants"]}
+    print(f"flood: exit {run.returncode}, {sent / second:.0f} sentences/s sent, {most_mb:.0f} MB at most, late events {late}, {len(stamps)} fixes, {json.dumps(counts)}")
+    return run.returncode == 0 and sent / second > 90_000 and most_mb < 100 and late["boat"] == 0 and len(stamps) >= seconds - 6
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/dev")
+    parser.add_argument("what", nargs="*", help="day, flood")
+    options = parser.parse_args()
+    good = True
+    for what in (day, flood):
+        if options.what and what.__name__ not in options.what:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            good = what(options.build.resolve(), pathlib.Path(folder)) and good
+    sys.exit(0 if good else 1)
+
+
+main()
