@@ -48,6 +48,7 @@ const std::vector<std::pair<std::string, std::string>> kKnownVerbs = {
     {"plan", "surveys before they are run: lines, speed, sidescan, import"},
     {"terrain", "seabeds on disk: build, info, verify, sample"},
     {"doctor", "check this machine and installation"},
+    {"feed", "doctor: what a navigation feed sends, and the source to use for it"},
     {"grid", "the depths of a survey on a grid: GeoTIFF, BAG"},
     {"patch", "the patch test of a multibeam, from a record of its lines"},
     {"plot", "pictures and summary of a survey"},

@@ -1,0 +1,168 @@
+#include "tools/feed/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace ensonify::feed_doctor {
+namespace {
+
+constexpr double kGpsAhead_s = 18.0;  // of UTC, since 2017
+constexpr double kClose_s = 5.0;      // a clock is right within this
+
+const char* word_of(Findings::Format format) {
+  switch (format) {
+    case Findings::Format::kNmea: return "nmea";
+    case Findings::Format::kTss1: return "tss1";
+    case Findings::Format::kEmAttitude: return "em_attitude";
+    case Findings::Format::kKmBinary: return "km_binary";
+    case Findings::Format::kNone: break;
+  }
+  return "";
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// Rate and jitter of times: intervals, and by how much 95 of 100 differ from the median one.
+std::string rhythm_of(const std::vector<double>& times_s, double wrap_s) {
+  std::vector<double> steps_s, off_ms;
+  for (std::size_t i = 1; i < times_s.size(); ++i) {
+    const double step_s = times_s[i] - times_s[i - 1];
+    steps_s.push_back(wrap_s > 0.0 ? std::remainder(step_s, wrap_s) : step_s);
+  }
+  if (steps_s.size() < 2) return "-";
+  const double median_s = quantile(steps_s, 0.5);
+  for (const double step_s : steps_s) off_ms.push_back(1e3 * std::abs(step_s - median_s));
+  if (!(median_s > 0.0)) return fmt::format("several at once, +-{:.0f} ms", quantile(off_ms, 0.95));
+  return fmt::format("{:.4g} Hz +-{:.0f} ms", 1.0 / median_s, quantile(off_ms, 0.95));
+}
+
+struct Scale {
+  const char* word = "utc";
+  std::string text;
+  bool fault = false;
+};
+
+/// By the machine's clock, or the stamps of a log.
+Scale scale_of(const Findings& found) {
+  std::vector<double> fixes_s, motion_s, dated_s;
+  bool timed = false;
+  for (const auto& [name, kind] : found.kinds) {
+    auto& to = name.ends_with("ZDA") ? dated_s : name.ends_with("GGA") || name.ends_with("RMC") ? fixes_s : motion_s;
+    to.insert(to.end(), kind.ahead_s.begin(), kind.ahead_s.end());
+    timed = timed || !kind.own_s.empty();
+  }
+  if (!timed) return {"utc", "no times of their own: arrivals count, less latency_s"};
+  const auto median = [](const std::vector<double>& of) {
+    return of.empty() ? std::optional<double>() : quantile(of, 0.5);
+  };
+  const auto fixes = median(fixes_s), motion = median(motion_s), dated = median(dated_s);
+  if (fixes && dated && std::abs(*fixes - *dated - kGpsAhead_s) < 2.0)
+    return {"gps", "GPS: fixes are 18 s ahead of ZDA", true};
+  if (fixes && motion && std::abs(*motion - *fixes) > kClose_s) {
+    return {"utc",
+            fmt::format("two scales on one way: motion is {:+.1f} s ahead of the fixes; make them two sources",
+                        *motion - *fixes),
+            true};
+  }
+  const auto any = fixes ? fixes : motion ? motion : dated;
+  if (!any) return {"utc", "not known: neither arrivals nor stamps to compare with; taken for UTC"};
+  if (std::abs(*any - kGpsAhead_s) < 2.0)
+    return {"gps", fmt::format("GPS: {:+.2f} s ahead of the clock at arrival", *any), true};
+  if (std::abs(*any) < kClose_s) return {"utc", fmt::format("UTC: {:+.2f} s ahead of the clock at arrival", *any)};
+  return {"utc",
+          fmt::format("not known: {:+.1f} s ahead of the clock at arrival, which may be wrong; taken for UTC", *any),
+          true};
+}
+
+}  // namespace
+
+Report report_of(const Findings& found, const std::string& way) {
+  Report report;
+  const auto say = [&](const std::string& line) { report.text += line + "\n"; };
+  const auto fault = [&](const std::string& line) {
+    say(line);
+    ++report.faults;
+  };
+  if (found.format == Findings::Format::kNone) {
+    fault(found.bytes == 0 ? "nothing has come: is the sender alive, are port, speed of the line and --sender right?"
+                           : fmt::format("{} bytes, none of a known format (nmea, tss1, em_attitude, km_binary); wrong "
+                                         "speed of the line?",
+                                         found.bytes));
+    if (found.bad_checksums > 0) say(fmt::format("{} sentences with a bad checksum", found.bad_checksums));
+    return report;
+  }
+  const std::string seconds = found.seconds > 0.0 ? fmt::format(" in {:.1f} s", found.seconds) : "";
+  say(fmt::format("format: {}, {} of them{}, {} bytes", word_of(found.format), found.sentences(), seconds,
+                  found.bytes));
+  say(fmt::format("{:<12} {:>7}  {:<22} {:<22} {}", "kind", "count", "arrivals", "own times", "repeats"));
+  for (const auto& [name, kind] : found.kinds) {
+    say(fmt::format("{:<12} {:>7}  {:<22} {:<22} {}", name, kind.count, rhythm_of(kind.arrivals_s, 0.0),
+                    rhythm_of(kind.own_s, 86400.0),
+                    kind.repeats > 0 ? fmt::format("{:.0f} %", 100.0 * static_cast<double>(kind.repeats) /
+                                                                   static_cast<double>(kind.count))
+                                     : ""));
+  }
+  if (!found.talkers.empty()) say(fmt::format("talkers: {}", fmt::join(found.talkers, ", ")));
+  const std::size_t all = found.sentences() + found.bad_checksums + found.malformed;
+  if (found.bad_checksums > 0) fault(fmt::format("checksums: {} of {} sentences are bad", found.bad_checksums, all));
+  if (found.malformed > 0)
+    fault(fmt::format("malformed: {} of {} lines or frames are cut, or hold what cannot be", found.malformed, all));
+  if (found.skipped_bytes > 0) fault(fmt::format("garbage: {} bytes between frames", found.skipped_bytes));
+  if (found.unusable > 0) fault(fmt::format("not usable, by the sensor's own word: {} frames", found.unusable));
+  for (const auto& [quality, count] : found.qualities)
+    say(fmt::format("fixes of quality {}: {}{}", quality, count, quality == 0 ? " (no fix)" : ""));
+  for (const std::string& datum : found.datums) {
+    if (datum == "W84") say("datum: W84");
+    else fault(fmt::format("datum: {}; set the receiver to WGS 84", datum));
+  }
+  const Scale scale = scale_of(found);
+  scale.fault ? fault("time scale: " + scale.text) : say("time scale: " + scale.text);
+
+  std::string reversed;
+  std::optional<double> antenna_m;
+  for (const Sign& sign : signs_of(found)) {
+    const std::string numbers = sign.slope ? fmt::format(" (slope {:.2f} +- {:.2f}, {} samples)", sign.slope->value,
+                                                         sign.slope->standard_error, sign.slope->count)
+                                           : "";
+    if (sign.is == Sign::Is::kUnknown) {
+      say(fmt::format("sign of {}: not known: {}{}", sign.of, sign.why, numbers));
+      continue;
+    }
+    const bool right = sign.is == Sign::Is::kRight;
+    const std::string text =
+        fmt::format("sign of {}: {}, by {}{}", sign.of, right ? "right" : "reversed", sign.by, numbers);
+    right ? say(text) : fault(text);
+    if (!right) reversed += ", " + sign.of + "_reversed: true";
+    if (sign.of == "roll") {
+      antenna_m = std::abs(sign.slope->value);
+      say(fmt::format("antenna: {:.1f} m above the roll centre, standard error {:.1f} m, with what sways with the roll",
+                      *antenna_m, sign.slope->standard_error));
+    }
+  }
+  say("not known from here: the sign of pitch, latency, lever arms forward and to starboard, offsets of the angles, "
+      "where "
+      "heave is measured; the sign of roll holds for an antenna above the roll centre");
+
+  const bool places = !found.fixes.empty(), headings = !found.heading_rad.empty(),
+             motion = !(found.roll_rad.empty() && found.pitch_rad.empty() && found.heave_m.empty());
+  std::string keys = way;
+  if (found.format != Findings::Format::kNmea) keys += std::string(", format: ") + word_of(found.format);
+  if (!places && (found.format == Findings::Format::kNmea || found.format == Findings::Format::kKmBinary))
+    keys += ", place: false";
+  if (!headings) keys += ", heading: false";
+  if (!motion) keys += ", motion: false";
+  if (std::string(scale.word) != "utc") keys += std::string(", time_scale: ") + scale.word;
+  keys += reversed;
+  say("\nsources:\n  ship: { " + keys + " }" +
+      (antenna_m && places ? fmt::format("   # unless it is measured: antenna_position_m: [0, 0, {:.1f}]", -*antenna_m)
+                           : ""));
+  return report;
+}
+
+}  // namespace ensonify::feed_doctor
