@@ -83,8 +83,9 @@ ConfigNode SentenceRates::in_file() const {
 std::string SentenceRates::schema() {
   std::string properties;
   for (const nav_out::KindInfo& kind : nav_out::kSentences) {
-    properties += fmt::format(R"({}"{}": {{"type": "number", "minimum": {}, "maximum": {}}})",
-                              properties.empty() ? "" : ", ", kind.name, kLowest_hz, kHighest_hz);
+    properties +=
+        fmt::format(R"({}"{}": {{"type": "number", "minimum": {}, "maximum": {}, "description": "rate of {}, Hz"}})",
+                    properties.empty() ? "" : ", ", kind.name, kLowest_hz, kHighest_hz, kind.name);
   }
   return fmt::format(R"({{"type": "object", "minProperties": 1, "properties": {{{}}}, "additionalProperties": false}})",
                      properties);

@@ -21,7 +21,7 @@ def degrees(text, half):
 
 
 def blocks(seconds):
-    """Second by second: GGA and HDT as they were logged, and PASHR made of the log's PSXN,23, which gives the same."""
+    """Second by second: GGA and HDT as they were logged, and PASHR made of the log's PSXN,23, whose heave counts down."""
     found = []
     for line in LOG.read_text().splitlines():
         logged = line.split(" ", 1)[1]
@@ -32,6 +32,7 @@ def blocks(seconds):
             found[-1].update(heading=float(fields[1]), text=found[-1]["text"] + logged + "\r\n")
         elif found and fields[:2] == ["PSXN", "23"]:
             roll, pitch, heading, heave = map(float, fields[2:6])
+            heave = -heave
             body = f"PASHR,{float(found[-1]['time']):010.3f},{heading:.2f},T,{roll:+.2f},{pitch:+.2f},{heave:+.2f},0.05,0.05,0.1,1,1"
             found[-1].update(roll=roll, pitch=pitch, heave=heave, text=found[-1]["text"] + sentence(body))
     return found[:seconds]

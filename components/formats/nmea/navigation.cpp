@@ -194,6 +194,14 @@ Navigation read_timed_motion(const Fields& f, std::size_t time, const Places& at
   return time_s ? read_motion(f, at, time_s) : Navigation{Malformed{}};
 }
 
+/// Its heave counts down [Seapath200].
+Navigation read_seapath_motion(const Fields& f) {
+  Navigation read = read_motion(f, {2, 3, 5, 4}, std::nullopt);
+  if (auto* motion = std::get_if<Motion>(&read); motion != nullptr && motion->heave_m)
+    motion->heave_m = -*motion->heave_m;
+  return read;
+}
+
 /// Of place, height, heading, roll and pitch. 0: normal, 1: reduced, 2: not valid.
 Navigation read_quality(const Fields& f) {
   const auto heave = number(f[3], 0, 2), heading = number(f[4], 0, 2), roll_and_pitch = number(f[5], 0, 2);
@@ -224,7 +232,7 @@ Navigation read_navigation(std::string_view line) {
   };
   if (f[0] == "PASHR") return f.size() < 7 ? Navigation{Malformed{}} : read_timed_motion(f, 1, {4, 5, 6, 2});
   if (is("PSAT", "HPR")) return f.size() < 6 ? Navigation{Malformed{}} : read_timed_motion(f, 2, {5, 4, 0, 3});
-  if (is("PSXN", "23")) return f.size() < 6 ? Navigation{Malformed{}} : read_motion(f, {2, 3, 5, 4}, std::nullopt);
+  if (is("PSXN", "23")) return f.size() < 6 ? Navigation{Malformed{}} : read_seapath_motion(f);
   if (is("PSXN", "20")) return f.size() < 6 ? Navigation{Malformed{}} : read_quality(f);
   for (const Kind& kind : kKinds) {
     if (is_kind(f, kind.name)) return f.size() < kind.fewest_fields ? Navigation{Malformed{}} : kind.read(f);

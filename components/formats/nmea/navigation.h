@@ -81,8 +81,8 @@ struct MotionQuality {
   bool heave = true, roll_and_pitch = true, heading = true;
 };
 
-/// PASHR; PSAT,HPR; or PSXN,23, which has no time. Signs are those that all use: roll with port up, pitch with bow up,
-/// heave up.
+/// PASHR; PSAT,HPR; or PSXN,23, which has no time. Roll with port up, pitch with bow up, heave up; PSXN,23 counts heave
+/// down, and is turned.
 using formats::Motion;
 
 using Navigation = std::variant<Fix, MinimumFix, Course, Heading, TurnRate, DateAndTime, FixAccuracy, WaterDepth,

@@ -40,7 +40,7 @@ TEST_CASE("sentences as instruments send them are read") {
   CHECK_FALSE(seapath.time_s);
   CHECK(*seapath.roll_rad == Approx(0.35 * kDegree));
   CHECK(*seapath.true_heading_rad == Approx(218.26 * kDegree));
-  CHECK(*seapath.heave_m == 0.58);
+  CHECK(*seapath.heave_m == -0.58);
 }
 
 TEST_CASE("speeds, turn rates, dates, accuracies and depths are read in their units") {

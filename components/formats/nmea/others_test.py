@@ -46,7 +46,7 @@ def check_sentences(lines):
                           (pashr.roll_accuracy, 0.02), (pashr.heading_accuracy, 0.05)):
         near(found, wanted, 1e-9)
     psxn = seen["PSXN23"]
-    for found, wanted in ((psxn.head, 218.26), (psxn.roll, -1.25), (psxn.pitch, 2.5), (psxn.heave, -0.58)):
+    for found, wanted in ((psxn.head, 218.26), (psxn.roll, -1.25), (psxn.pitch, 2.5), (psxn.heave, 0.58)):  # it counts down
         near(found, wanted, 1e-9)
 
 

@@ -68,7 +68,8 @@ def by_pynmea2(line):
     if isinstance(m, pynmea2.types.proprietary.ash.ASHRATT):
         return "motion", [seconds(m.timestamp), *map(number, (m.true_heading, m.roll, m.pitch, m.heave))]
     if isinstance(m, pynmea2.types.proprietary.sxn.SXN23):
-        return "motion", [None, *map(number, (m.head, m.roll, m.pitch, m.heave))]
+        heave = number(m.heave)  # which it counts down
+        return "motion", [None, *map(number, (m.head, m.roll, m.pitch)), None if heave is None else -heave]
     return None
 
 

@@ -137,10 +137,12 @@ std::string psxn_20(const MotionQuality& quality) {
       fmt::format("PSXN,20,0,{},{},{}", text(quality.heave), text(quality.heading), text(quality.roll_and_pitch)));
 }
 
+/// Its heave counts down.
 std::string psxn_23(const Motion& motion) {
+  const auto down_m = motion.heave_m ? std::optional(-*motion.heave_m) : std::nullopt;
   return framed(fmt::format("PSXN,23,{},{},{},{}", number_text(degrees(motion.roll_rad), 2),
                             number_text(degrees(motion.pitch_rad), 2), direction_text(motion.true_heading_rad),
-                            number_text(motion.heave_m, 2)));
+                            number_text(down_m, 2)));
 }
 
 }  // namespace ensonify::nmea

@@ -25,7 +25,7 @@ Found read(const std::string& sentence) {
 TEST_CASE("sentences that instruments sent are written as they sent them") {
   // A receiver on a research vessel (HDT, PSXN), the manual of a positioning system (PASHR), and gpsd's page (ROT).
   CHECK(hdt("IN", {218.26 * kDegree}) == "$INHDT,218.26,T*1A\r\n");
-  CHECK(psxn_23({{}, 218.26 * kDegree, 0.35 * kDegree, -1.74 * kDegree, 0.58}) ==
+  CHECK(psxn_23({{}, 218.26 * kDegree, 0.35 * kDegree, -1.74 * kDegree, -0.58}) ==
         "$PSXN,23,0.35,-1.74,218.26,0.58*13\r\n");
   CHECK(pashr({16 * 3600.0 + 30 * 60 + 29, 158.09 * kDegree, -0.30 * kDegree, 0.31 * kDegree, 0.01},
               {0.029 * kDegree, 0.029 * kDegree, 0.059 * kDegree},
