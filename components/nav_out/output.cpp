@@ -69,6 +69,12 @@ void SentenceRates::read(ConfigReader& from, const char* key) {
   if (empty()) from.problem(key, "names no sentence; allowed: " + names);
 }
 
+bool SentenceRates::same_as(const SentenceRates& other) const {
+  return std::ranges::equal(*this, other, [](const auto& one, const auto& two) {
+    return one.first.name == two.first.name && one.second == two.second;
+  });
+}
+
 ConfigNode SentenceRates::in_file() const {
   ConfigNode map = ConfigNode::map();
   for (const auto& [kind, hz] : *this) {
@@ -111,9 +117,10 @@ void Output::check(const ConfigReader& from) const {
   if (!talker.empty() && (talker.size() != 2 || !std::all_of(talker.begin(), talker.end(), letter)))
     from.problem("talker",
                  fmt::format("\"{}\" is no talker; allowed: two capital letters such as GP, IN or HE", talker));
-  if (format != Format::kNmea && from.has("sentences"))
+  const Output usual;  // what is printed says that too
+  if (format != Format::kNmea && from.has("sentences") && !sentences.same_as(usual.sentences))
     from.problem("sentences", "are those of format nmea; of this format rate_hz says how many frames leave");
-  if (format == Format::kNmea && from.has("rate_hz"))
+  if (format == Format::kNmea && from.has("rate_hz") && rate_hz != usual.rate_hz)
     from.problem("rate_hz", "is that of other formats; of nmea each of the sentences has its own");
   if (const auto* udp = std::get_if<Udp>(&way)) {
     check_address(from, "to", [&] { udp_address(fmt::format("{}:{}", udp->to, udp->port)); });

@@ -76,6 +76,7 @@ struct SentenceRates : std::vector<std::pair<nav_out::KindInfo, double>> {
   using std::vector<std::pair<nav_out::KindInfo, double>>::vector;
   void read(ConfigReader& from, const char* key);
   ConfigNode in_file() const;
+  bool same_as(const SentenceRates& other) const;
   static std::string schema();
 };
 

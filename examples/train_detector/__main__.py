@@ -102,7 +102,7 @@ def arguments() -> argparse.ArgumentParser:
     of.add_argument("kind", choices=sorted(scenes.RECIPES))
     of.add_argument("-o", "--out", type=Path, required=True)
     of.add_argument("--pictures", type=int, default=None, help="number of generated pictures, of all recipes; default 2400 of imaging heads, 120 waterfalls")
-    of.add_argument("--steps", type=int, default=1500, help=f"of training, {training.BATCH} pictures each")
+    of.add_argument("--steps", type=int, default=2400, help=f"of training, {training.BATCH} pictures each")
     of.add_argument("--validate", type=int, default=400, help="number of validation pictures")
     of.add_argument("--seed", type=int, default=1)
     of.add_argument("--jobs", type=int, default=2)

@@ -68,7 +68,7 @@ class FeedDoctor(SystemTest):
     def test_genuine_logs(self):
         ship = self.doctor("--file", LOG)
         self.assertIn("sign of roll: right", ship.stdout)
-        self.assertRegex(ship.stdout, r"sign of heave: reversed.*slope -1\.00")
+        self.assertRegex(ship.stdout, r"sign of heave: right.*slope 1\.00")
         self.check_source(ship.stdout)
         compass = self.doctor("--file", COMPASS)
         self.assertRegex(compass.stdout, r"fixes of quality 0: \d+ \(no fix\)")

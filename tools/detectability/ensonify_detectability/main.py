@@ -1,9 +1,6 @@
 """How well a detector finds what is in generated pictures: probability of detection and false alarms, and what they depend on.
 
-    ensonify detectability RECIPE -n 400 -o out/limits --by range_m --by buried
-    ensonify detectability out/set --detector my_detector.py:find --by range_m:5,10,15,20
-
-The first makes pictures by `ensonify dataset` where they are not there yet. Results are in DIR/detectability.
+Of a recipe pictures are made by `ensonify dataset` where they are not there yet. Results are in DIR/detectability.
 """
 import argparse
 import os
@@ -12,6 +9,7 @@ import sys
 import traceback
 from pathlib import Path
 
+import ensonify
 import numpy as np
 
 from . import limits, report
@@ -25,6 +23,7 @@ USUAL = ("class", "range_m", "size_m", "grazing_deg", "buried", "contrast_db")  
 def arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="ensonify detectability", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                                      epilog="Exit codes: 0 measured, 2 arguments or set are wrong, 3 the detector failed, else that of `ensonify dataset`.")
+    parser.add_argument("--version", action="version", version=f"ensonify {ensonify.__version__}")
     parser.add_argument("of", metavar="RECIPE|SET", type=Path, help="recipe file, or the folder of a set")
     parser.add_argument("-n", type=int, default=400, metavar="N", help="number of pictures of a recipe (default: 400)")
     parser.add_argument("-o", "--out", type=Path, help="folder of set and results; of a set that is there: its own")
