@@ -61,7 +61,7 @@ NavOutNode::NavOutNode(const Config& config, Ports& ports)
       Line line{i, kind, hz, {}, {}};
       const std::int64_t second_ns = (1'000'000'000 - config.start_unix_ns % 1'000'000'000) % 1'000'000'000;
       if (kind.source == Source::kClock) line.due.emplace(rate_of(hz), SimTime{second_ns});
-      lines_.push_back(std::move(line));
+      lines_.push_back(line);
     }
   }
   if (config.origin) instruments_.set_origin(*config.origin);
