@@ -15,7 +15,12 @@ def named(name: str):
     module, _, function = name.rpartition(":")
     if not module or not function:
         raise Unreadable(f"--detector {name}: allowed: cfar, MODULE:FUNCTION or FILE.py:FUNCTION")
-    of = _from_file(name, Path(module)) if module.endswith(".py") else _from_module(name, module)
+    try:
+        of = _from_file(name, Path(module)) if module.endswith(".py") else _from_module(name, module)
+    except Unreadable:
+        raise
+    except Exception as error:  # somebody's code, as it is loaded
+        raise Unreadable(f"--detector {name}: {type(error).__name__}: {error}") from None
     if not callable(getattr(of, function, None)):
         raise Unreadable(f"--detector {name}: {module} has no function {function}")
     return getattr(of, function)

@@ -111,6 +111,8 @@ def look_at(picture, detector, threshold: float, folder: Path) -> None:
 
 
 def run(given: argparse.Namespace) -> int:
+    if given.threshold is not None and not np.isfinite(given.threshold):
+        raise Unreadable(f"--threshold {given.threshold}: allowed is a number")
     if given.bins < 1:
         raise Unreadable(f"--bins {given.bins}: allowed is 1 or more")
     detector = named(given.detector)
@@ -146,7 +148,7 @@ def main(words: list | None = None) -> int:
         print(f"ensonify detectability: {error}", file=sys.stderr)
         return DIED
     except OSError as error:
-        print(f"ensonify detectability: {error.filename}: {error.strerror}", file=sys.stderr)
+        print(f"ensonify detectability: {error}", file=sys.stderr)
         return 5
 
 

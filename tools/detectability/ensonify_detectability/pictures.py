@@ -36,7 +36,7 @@ class Picture:
 
     @cached_property
     def counts(self) -> np.ndarray:
-        return np.array(Image.open(self._folder / "amplitude" / f"{self.name}.png"), np.float32)
+        return self._read("amplitude").astype(np.float32)
 
     @property
     def amplitude(self) -> np.ndarray:
@@ -44,7 +44,14 @@ class Picture:
 
     @property
     def grey(self) -> np.ndarray:
-        return np.array(Image.open(self._folder / "images" / f"{self.name}.png"))
+        return self._read("images")
+
+    def _read(self, kind: str) -> np.ndarray:
+        file = self._folder / kind / f"{self.name}.png"
+        try:
+            return np.array(Image.open(file))
+        except (OSError, ValueError) as error:
+            raise Unreadable(f"{file}: {error}; allowed is what `ensonify dataset` wrote") from None
 
     def km2(self) -> float:
         """Area that the picture shows, by slant range: of a fan its sector, of a waterfall its length times its width."""
@@ -102,8 +109,11 @@ def read(folder: Path) -> list:
     file = folder / "manifest.jsonl"
     if not file.is_file():
         raise Unreadable(f"{file}: is not there; allowed is a folder that `ensonify dataset` made, or a recipe with -o")
-    rows = [json.loads(line) for line in file.read_text().splitlines()]
-    found = [Picture(folder, row) for row in rows if not row["pair"]]
+    try:
+        rows = [json.loads(line) for line in file.read_text().splitlines()]
+        found = [Picture(folder, row) for row in rows if not row["pair"]]
+    except (ValueError, KeyError, TypeError) as error:
+        raise Unreadable(f"{file}: {type(error).__name__}: {error}; allowed is what `ensonify dataset` wrote") from None
     if found and not (folder / found[0].split / "amplitude").is_dir():
         raise Unreadable(f"{folder}: has no amplitudes; allowed are the recipe's formats coco, yolo, voc and masks")
     return found

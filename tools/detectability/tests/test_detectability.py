@@ -186,8 +186,23 @@ class RunTest(unittest.TestCase):
                             ([self.folder, "--by", "range_m:5,1"], "rising"), ([self.folder, "--by", "range_m:x,1"], "rising"),
                             ([self.folder, "--by", "class:1,2"], "is no number"), ([self.folder, "--bins", 0], "--bins 0"),
                             ([self.folder, "--alarms", "-1"], "--alarms"), ([self.folder, "--split", "train"], "another --split"),
+                            ([self.folder, "--threshold", "nan"], "is a number"),
                             ([self.folder, "--only", 3], "needs a recipe"), ([self.folder / "set/test"], "manifest.jsonl")):
             self.assertIn(said, self.measured(*words, code=2), words)
+
+    def test_a_damaged_set_or_detector_is_named(self):
+        painted(self.folder / "set")
+        broken = self.folder / "broken.py"
+        broken.write_text("def find(picture:\n")
+        self.assertIn("SyntaxError", self.measured(self.folder, "--detector", f"{broken}:find", code=2))
+        manifest = self.folder / "set/manifest.jsonl"
+        whole = manifest.read_text()
+        for damaged in (whole[:-40], "{}\n", "[]\n"):
+            manifest.write_text(damaged)
+            self.assertIn("manifest.jsonl", self.measured(self.folder, code=2))
+        manifest.write_text(whole)
+        next((self.folder / "set/test/amplitude").glob("*.png")).write_bytes(b"no picture")
+        self.assertIn("cannot identify", self.measured(self.folder, "--threshold", 12, code=2))
 
     def test_what_was_missed_is_seen_again(self):
         recipe = SOURCE / "launch/recipes/forward_looking.yaml"
