@@ -43,7 +43,7 @@ class Bench:
             log = (pathlib.Path(out) / "log" / "clock.log").read_text()
             report["connect_s"] = float(re.search(r"connect_s=([0-9.]+)", log).group(1))
             run = json.loads((pathlib.Path(out) / "run.json").read_text())
-            report["processes"], judged = run["processes"], run["expect"]
+            report["processes"], report["profile"], judged = run["processes"], run.get("profile"), run["expect"]
             report["messages"] = {e["name"]: int(e["message"].split()[0]) for e in judged if e["message"].endswith(" messages")}
             for notes in pathlib.Path(out).glob("python_step.json"):
                 report["python_step"] = json.loads(notes.read_text())

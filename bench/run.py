@@ -26,6 +26,7 @@ from labels_bench import bench_labels
 from logger_bench import bench_logger
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
+from table_bench import bench_table
 from uncertainty_bench import bench_uncertainty
 
 
@@ -43,7 +44,7 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "labels": bench_labels,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "labels": bench_labels,
            "dataset": bench_dataset, "logger": bench_logger,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "kernels": bench_kernels}

@@ -31,10 +31,13 @@ std::vector<Json> written_in(const std::string& folder) {
   return profiles;
 }
 
-std::string row(const std::string& name, double count, double wall_s, double processor_s, double of_s) {
+std::string row(const std::string& name, double count, double wall_s, double processor_s, double of_s,
+                double items = 0.0) {
   const auto each = [count](double s) { return count > 0.0 ? 1e3 * s / count : 0.0; };
-  return fmt::format("  {:<18}{:>9.0f}{:>14.3f}{:>19.3f}{:>8.1f} %\n", name, count, each(wall_s), each(processor_s),
-                     of_s > 0.0 ? 100.0 * processor_s / of_s : 0.0);
+  const std::string of_items =
+      items > 0.0 ? fmt::format("{:>12.0f}{:>10.0f}", items / count, 1e9 * processor_s / items) : std::string();
+  return fmt::format("  {:<18}{:>9.0f}{:>14.3f}{:>19.3f}{:>8.1f} %{}\n", name, count, each(wall_s), each(processor_s),
+                     of_s > 0.0 ? 100.0 * processor_s / of_s : 0.0, of_items);
 }
 
 /// Stages of one process. The rest of a step is what no stage has.
@@ -49,7 +52,8 @@ std::string table_of(const Json& profile) {
   for (const auto& [name, stage] : stages.items()) {
     if (name == "step") continue;
     const bool part = stage["part_of_beamform"];
-    text += row(part ? "  of it " + name : name, stage["count"], stage["wall_s"], stage["processor_s"], processor_s);
+    text += row(part ? "  of it " + name : name, stage["count"], stage["wall_s"], stage["processor_s"], processor_s,
+                stage["items"]);
     if (part) continue;
     rest_s -= stage["wall_s"].get<double>();
     rest_processor_s -= stage["processor_s"].get<double>();
@@ -76,8 +80,8 @@ Profiles gather_profiles(const std::string& out) {
     of_processes[process] = std::move(profile);
   }
   if (!profiles.table.empty())
-    profiles.table.insert(0, fmt::format("  {:<18}{:>9}{:>14}{:>19}{:>10}\n", "stage", "count", "wall ms each",
-                                         "processor ms each", "share"));
+    profiles.table.insert(0, fmt::format("  {:<18}{:>9}{:>14}{:>19}{:>10}{:>12}{:>10}\n", "stage", "count",
+                                         "wall ms each", "processor ms each", "share", "items each", "ns each"));
   write_text(out + "/profile.json", Json{{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}}.dump() + "\n");
   profiles.json = of_processes.dump();
   return profiles;

@@ -66,7 +66,7 @@ trace::RayDistribution rays_of(const EchosounderConfig& c) {
   const trace::TransmitVolume volume{trace::TransmitVolume::Axis::kForward,
                                      {-1.0, 1.0, -first_null, first_null, 2.0 * std::sin(0.5 * c.beamwidth_rad)},
                                      {-kWidest_rad, kWidest_rad, -null_rad, null_rad, c.beamwidth_rad}};
-  return {volume, c.quality.ray_settings(range_resolution_m(c)), {c.world->seed, c.process + "/rays"}};
+  return {volume, c.quality.ray_settings(range_resolution_m(c), c.most_rays), {c.world->seed, c.process + "/rays"}};
 }
 
 detect::FirstBottomSettings bottom_of(const EchosounderConfig& config) {

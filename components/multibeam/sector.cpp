@@ -82,8 +82,9 @@ Sector::Sector(const MultibeamConfig& config, const Effects& effects, const Arra
 
 Sector::Design Sector::prepare(const HeadSettings& settings) const {
   const double resolution_m = range_resolution_m(config_, settings.pulse_length_s), swath_rad = settings.swath_rad;
-  trace::RaySettings rays = config_.quality.ray_settings(resolution_m);
-  rays.fewest_rays = kFewestRays / arrays_.sectors.size();
+  trace::RaySettings rays = config_.quality.ray_settings(resolution_m, config_.most_rays);
+  rays.fewest_rays = std::min(kFewestRays / arrays_.sectors.size(),
+                              static_cast<std::size_t>(0.5 * config_.most_rays / config_.quality.rays));
   // Steering moves the fan by a few degrees: the depths that it passes hardly change.
   array::Pattern unsteered;
   pattern_.steer(steer(config_, swath_rad, {}).sectors[number_], unsteered);

@@ -68,7 +68,9 @@ trace::RayDistribution rays_of(const ScanningConfig& config, const LineDesign& l
   volume.sine = {-1.0, 1.0, std::max(-1.0, axis - 1.0 / tall), std::min(1.0, axis + 1.0 / tall),
                  2.0 * array::half_power_half_width(tall)};
   volume.angle_rad = {-reach_rad, reach_rad, -null_rad, null_rad, config.horizontal_beamwidth_rad};
-  return {volume, config.quality.ray_settings(resolution_m(config)), {config.world->seed, config.process + "/rays"}};
+  return {volume,
+          config.quality.ray_settings(resolution_m(config), config.most_rays),
+          {config.world->seed, config.process + "/rays"}};
 }
 
 /// All elevations of the main lobe.

@@ -102,7 +102,7 @@ trace::RayDistribution rays_of(const SidescanConfig& config, const SidescanChann
       {-kFarthest_rad, kFarthest_rad, -kFarthest_rad, kFarthest_rad, channel.vertical_beamwidth_rad}};
   // Below the head a cell of directions holds few ranges, and what few rays leave of their level would be a stripe
   // along the track. Those to places of the world leave it at other ranges in each ping.
-  trace::RaySettings rays = config.quality.ray_settings(channel.resolution_m(config.sound_speed_mps));
+  trace::RaySettings rays = config.quality.ray_settings(channel.resolution_m(config.sound_speed_mps), config.most_rays);
   rays.fewest_in_main_cell = trace::RaySettings::kToPlaces;
   return {volume, rays, {config.world->seed, config.process + "/" + channel.name + "/rays"}};
 }

@@ -114,6 +114,7 @@ struct HeadParameters {
   double gain_offset_db = 0.0;        // O
   Converter converter;
   Quality quality;
+  int most_rays = 4'000'000;  // of a transmission
   trace::LevelOfDetail lod{.enabled = true};
   Trigger trigger;
   std::vector<OtherHead> interference;  // whom it receives
@@ -139,6 +140,9 @@ struct HeadParameters {
           "rays, 0.05 to 10: 0.25 is a preview, 1 gives 12 to a resolution cell; or reference, exact and slow, to "
           "compare with",
           self.quality);
+    visit("most_rays", "", in(20'000, 100'000'000),
+          "most rays of a transmission: beyond that all parts of it give way alike; not of the reference",
+          self.most_rays);
     visit("lod", "level of detail of the seabed", self.lod);
     visit("trigger", "trigger of transmissions", self.trigger);
     visit("interference", "other heads of the vehicle that are received, by name", self.interference);

@@ -19,8 +19,9 @@ Quality Quality::of_reference() {
   return quality;
 }
 
-trace::RaySettings Quality::ray_settings(double range_resolution_m) const {
+trace::RaySettings Quality::ray_settings(double range_resolution_m, int most_rays) const {
   trace::RaySettings settings{.quality = rays, .range_resolution_m = range_resolution_m};
+  settings.most_rays = static_cast<std::size_t>(most_rays);
   if (reference) settings.most_rays = 100'000'000;
   return settings;
 }

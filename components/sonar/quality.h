@@ -24,8 +24,8 @@ struct Quality {
   Quality(double factor) : rays(factor) {}  // NOLINT(google-explicit-constructor): as in a file
   static Quality of_reference();
 
-  /// Rays of a head of this range resolution. Those of the reference do not give way to a limit but at 100 million.
-  trace::RaySettings ray_settings(double range_resolution_m) const;
+  /// Rays of a head of this range resolution, so many at most. Those of the reference give way at 100 million only.
+  trace::RaySettings ray_settings(double range_resolution_m, int most_rays) const;
 
   /// Largest error of a pattern's amplitude, of 1 on the axis.
   double pattern_error() const { return reference ? 1e-6 : 1e-4; }

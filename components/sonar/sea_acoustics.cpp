@@ -113,8 +113,8 @@ double SeaAcoustics::sent_db(double source_level_db) const {
 }
 
 Echoed SeaAcoustics::echoes(const Shot& shot, const Insonified& insonified, ShotMemory& memory) const {
-  const profile::Span span(profile::Stage::kEchoes);
   const auto& [found, smooth, sums, seabed_depth_m] = insonified;
+  const profile::Span span(profile::Stage::kEchoes, found.size());
   const frames::HeadPose& pose = shot.pose();
   const double head_depth_m = -pose.position_enu_m.z();
   memory.receivers.set({0.0, seconds(kTrackPeriod), effects_.motion ? shot.poses : shot.poses.first(1)});

@@ -98,4 +98,23 @@ const ObjectMeshFile& ObjectMeshes::of(const SceneObject& object) {
   return meshes_.emplace(key, std::move(made)).first->second;
 }
 
+const ObjectMeshFile& ObjectMeshes::laid(const SceneObject& object, const TerrainSource& ground) {
+  const LaidSection& section = object.laid.value();
+  const Key key{"laid " + object.name, 0.0, false};
+  if (const auto at = meshes_.find(key); at != meshes_.end()) return at->second;
+  auto line = lines_.find(section.route);
+  if (line == lines_.end()) line = lines_.emplace(section.route, LaidLine(object, ground)).first;
+
+  progressive::TriangleMesh mesh = line->second.surface(object).mesh;
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertex_m) box.extend(vertex);
+  const Eigen::Vector3f middle = box.center();
+  for (Eigen::Vector3f& vertex : mesh.vertex_m) vertex -= middle;
+  ObjectMeshFile made{static_cast<std::int64_t>(meshes_.size()), {nullptr, true}, "", {}};
+  made.middle_enu_m = mesh.origin_enu_m + middle.cast<double>();
+  mesh.origin_enu_m.setZero();
+  made.mesh.triangles = std::make_shared<const TriangleMesh>(std::move(mesh));
+  return meshes_.emplace(key, std::move(made)).first->second;
+}
+
 }  // namespace ensonify::source

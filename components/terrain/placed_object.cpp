@@ -82,11 +82,10 @@ void lay(const SceneObject& object, const solids::Solid& solid, const TerrainSou
 
 /// Part of a surface's volume below this height.
 double buried_share(const solids::Surface& surface, const Eigen::AlignedBox3d& box_enu_m, double ground_m) {
-  const double middle_m = surface.mesh.origin_enu_m.z();
   if (!std::isfinite(ground_m) || ground_m <= box_enu_m.min().z()) return 0.0;
-  const double whole_m3 = solids::volume_below_m3(surface.mesh, box_enu_m.max().z() - middle_m);
+  const double whole_m3 = solids::volume_below_m3(surface.mesh, box_enu_m.max().z());
   if (whole_m3 <= 0.0) return 0.0;
-  return std::clamp(solids::volume_below_m3(surface.mesh, ground_m - middle_m) / whole_m3, 0.0, 1.0);
+  return std::clamp(solids::volume_below_m3(surface.mesh, ground_m) / whole_m3, 0.0, 1.0);
 }
 
 }  // namespace
@@ -112,6 +111,14 @@ PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, cons
     const ObjectMeshFile& file = meshes.of(object);
     placed.message.mesh = file.number;
     solid = solid_of(placed.message, &file.mesh);
+  }
+  if (object.laid) {
+    const ObjectMeshFile& line = meshes.laid(object, ground);
+    placed.message.mesh = line.number;
+    placed.message.size_m = {1.0, 0.0, 0.0};
+    placed.message.position_enu_m = {line.middle_enu_m.x(), line.middle_enu_m.y(), line.middle_enu_m.z()};
+    placed.message.enu_from_object = frames::wxyz_of(frames::Quaternion::Identity());
+    solid = line.mesh;
   }
   if (object.place.rests) lay(object, solid, ground, ground_m, placed.message);
   placed.surface = surface_of(placed.message, solid, kSagitta * radius_m(solid));

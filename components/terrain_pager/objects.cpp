@@ -17,8 +17,12 @@ Objects::Objects(const TerrainPagerConfig& config, const source::TerrainSource& 
   for (const SceneObject& object : config.objects) {
     solids::Solid solid = object.solid;
     if (object.file) {
-      read_mesh(object);
+      read_mesh(files_.of(object), object.file->path);
       std::get<solids::Mesh>(solid).triangles = files_.of(object).mesh.triangles;
+    }
+    if (object.laid) {
+      read_mesh(files_.laid(object, terrain), object.name);
+      solid = files_.laid(object, terrain).mesh;
     }
     const double reach_m = solids::radius_m(solid);
     const frames::Vec2 place = object.place.position_enu_m.head<2>(), reach = frames::Vec2::Constant(reach_m);
@@ -31,11 +35,10 @@ Objects::Objects(const TerrainPagerConfig& config, const source::TerrainSource& 
 }
 
 /// Its shape as a message, where it is a new one.
-void Objects::read_mesh(const SceneObject& object) {
-  const source::ObjectMeshFile& file = files_.of(object);
+void Objects::read_mesh(const source::ObjectMeshFile& file, const std::string& name) {
   if (file.number < static_cast<std::int64_t>(meshes_.size())) return;
   meshes_.push_back({object_mesh_message(file.number, file.mesh)});
-  if (!file.said.empty()) said_.push_back(object.file->path + ": " + file.said);
+  if (!file.said.empty()) said_.push_back(name + ": " + file.said);
 }
 
 /// All files have been read, so that several may be placed at a time.

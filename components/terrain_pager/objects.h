@@ -50,7 +50,7 @@ class Objects {
     msg::ObjectMesh message;
     bool at_heads = false;
   };
-  void read_mesh(const SceneObject& object);
+  void read_mesh(const source::ObjectMeshFile& file, const std::string& name);
   void place(One& one);
   void place_all(const std::vector<One*>& wanted);
 

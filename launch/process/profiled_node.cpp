@@ -53,6 +53,7 @@ void write_profile(const std::string& file, const std::string& process) {
     stages[profile::kStageNames[i]] = {{"count", sum.count},
                                        {"wall_s", seconds_of(sum.wall_ns)},
                                        {"processor_s", seconds_of(sum.processor_ns)},
+                                       {"items", sum.items},
                                        {"part_of_beamform", profile::is_part(static_cast<profile::Stage>(i))}};
   }
   const Json json = {{"process", process},

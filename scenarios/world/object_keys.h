@@ -83,6 +83,31 @@ struct WedgeKeys : solids::Wedge {
   }
 };
 
+struct CableKeys {
+  double diameter_m = 0.0;
+  std::optional<double> length_m;
+  double sag_m = 0.0;
+  static void parameters(auto& self, auto&& visit) {
+    visit("diameter_m", "m", must(object_size()), "diameter of a cable", self.diameter_m);
+    visit("length_m", "m", computed(object_size()), "distance between a cable's ends, along its y; not of a laid one",
+          self.length_m);
+    visit("sag_m", "m", in(0, 1e3), "depth of a cable's middle below its ends: it hangs as a catenary", self.sag_m);
+  }
+  operator solids::Cable() const { return {diameter_m, length_m.value_or(0.0), sag_m}; }
+};
+struct ChainKeys {
+  double wire_m = 0.0;
+  std::optional<double> length_m;
+  double sag_m = 0.0;
+  static void parameters(auto& self, auto&& visit) {
+    visit("wire_m", "m", must(object_size()), "diameter of the wire of a chain's links", self.wire_m);
+    visit("length_m", "m", computed(object_size()), "distance between a chain's ends, along its y; not of a laid one",
+          self.length_m);
+    visit("sag_m", "m", in(0, 1e3), "depth of a chain's middle below its ends: it hangs as a catenary", self.sag_m);
+  }
+  operator solids::Chain() const { return {wire_m, length_m.value_or(0.0), sag_m}; }
+};
+
 /// A shape and its word: each form has one key.
 template <class Keys>
 struct ShapeWord;
@@ -97,6 +122,8 @@ template <> struct ShapeWord<PipeKeys> { static constexpr const char *kWord = "p
 template <> struct ShapeWord<BottleKeys> { static constexpr const char *kWord = "bottle", *kAbout = "a bottle that lies along y, its neck to the north"; };
 template <> struct ShapeWord<ShellKeys> { static constexpr const char *kWord = "shell", *kAbout = "a shell or bomb that lies along y, its nose to the north"; };
 template <> struct ShapeWord<WedgeKeys> { static constexpr const char *kWord = "wedge", *kAbout = "a ramp that rises to the north"; };
+template <> struct ShapeWord<CableKeys> { static constexpr const char *kWord = "cable", *kAbout = "a rope, hose or cable: it hangs between two ends, or is laid"; };
+template <> struct ShapeWord<ChainKeys> { static constexpr const char *kWord = "chain", *kAbout = "links of a ship's chain: it hangs between two ends, or is laid"; };
 // clang-format on
 template <class Keys>
 struct ObjectShape {
@@ -119,7 +146,13 @@ inline constexpr std::array kFigureWords{
     FigureWord{"person", "a person on the back, the head to the north", 0.5, 1.75, 0.25},
     FigureWord{"boat", "a small boat with a cabin, its bow to the north", 2.0, 6.0, 2.0},
     FigureWord{"aircraft", "a low-winged aircraft, its nose to the north", 11.0, 8.5, 3.0},
-    FigureWord{"propeller", "a hub along y with four blades", 1.0, 0.3, 1.0}};
+    FigureWord{"propeller", "a hub along y with four blades", 1.0, 0.3, 1.0},
+    FigureWord{"net", "a sheet of netting across x and z that bulges along y", 2.0, 0.4, 2.0},
+    FigureWord{"hook", "a crane's hook that hangs, open to the east", 0.3, 0.08, 0.6},
+    FigureWord{"valve", "a gate valve in a pipe along y, its handwheel above", 0.4, 0.6, 0.9},
+    FigureWord{"sheet_piles", "a wall of sheet piles along x", 6.0, 0.4, 4.0},
+    FigureWord{"wreck", "a ship along y that broke in two", 9.0, 30.0, 6.0},
+    FigureWord{"broken_aircraft", "an aircraft that broke when it crashed, its nose to the north", 12.0, 8.5, 3.0}};
 
 template <std::size_t kKind>
 struct ObjectFigure {
@@ -216,6 +249,30 @@ struct ObjectStrewn {
   }
 };
 
+/// A cable or chain along the seabed.
+struct LaidKeys {
+  std::vector<frames::Vec2> through_enu_m;
+  double taut_m = 0.0, burial = 0.0, section_m = 5.0;
+
+  static void parameters(auto& self, auto&& visit) {
+    visit("through_m", "m", must(mesh_place()),
+          "places that it lies through, straight from one to the next: [east, north]", self.through_enu_m);
+    visit("taut_m", "m", in(0, 1e4),
+          "tension over the weight in water of a metre of it: it spans hollows freely, as long as it hangs by less "
+          "than their depth; 0: it is limp and follows the seabed",
+          self.taut_m);
+    visit("burial", "", in(0, 1), "share of its diameter that is in the seabed where it lies", self.burial);
+    visit("section_m", "m", in(0.1, 1e3), "length of its sections: each is an instance of its own", self.section_m);
+  }
+  void check(const ConfigReader& from) const;
+};
+struct ObjectLaid {
+  LaidKeys keys;
+  static void parameters(auto& self, auto&& visit) {
+    visit("laid", "the way of a cable or chain along the seabed", self.keys);
+  }
+};
+
 struct ObjectKeys {
   enum class Material { kDiffuse, kSmooth };
   std::string name;
@@ -223,10 +280,12 @@ struct ObjectKeys {
   std::string class_name;
   std::variant<ObjectShape<SphereKeys>, ObjectShape<BoxKeys>, ObjectShape<CylinderKeys>, ObjectShape<PlateKeys>,
                ObjectShape<ConeKeys>, ObjectShape<TyreKeys>, ObjectShape<PipeKeys>, ObjectShape<BottleKeys>,
-               ObjectShape<ShellKeys>, ObjectShape<WedgeKeys>, ObjectFigure<0>, ObjectFigure<1>, ObjectFigure<2>,
-               ObjectFigure<3>, ObjectFigure<4>, ObjectFigure<5>, ObjectFigure<6>, ObjectFigure<7>, ObjectMesh>
+               ObjectShape<ShellKeys>, ObjectShape<WedgeKeys>, ObjectShape<CableKeys>, ObjectShape<ChainKeys>,
+               ObjectFigure<0>, ObjectFigure<1>, ObjectFigure<2>, ObjectFigure<3>, ObjectFigure<4>, ObjectFigure<5>,
+               ObjectFigure<6>, ObjectFigure<7>, ObjectFigure<8>, ObjectFigure<9>, ObjectFigure<10>, ObjectFigure<11>,
+               ObjectFigure<12>, ObjectFigure<13>, ObjectMesh>
       form;
-  std::variant<ObjectOnSeabed, ObjectInWater, ObjectStrewn> where;
+  std::variant<ObjectOnSeabed, ObjectInWater, ObjectStrewn, ObjectLaid> where;
   double heading_rad = 0.0, tilt_heading_rad = 0.0;
   std::optional<double> tilt_rad;
   Material material = Material::kDiffuse;

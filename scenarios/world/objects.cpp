@@ -94,7 +94,39 @@ std::vector<SceneObject> strewn(const StrewnObjectKeys& keys, const SceneObject&
   return objects;
 }
 
+/// The sections of a laid line, as long as each other.
+std::vector<SceneObject> laid(const LaidKeys& keys, const SceneObject& like) {
+  const auto route = std::make_shared<const LaidRoute>(LaidRoute{keys.through_enu_m, keys.taut_m, keys.burial});
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < keys.through_enu_m.size(); ++i)
+    length_m += (keys.through_enu_m[i] - keys.through_enu_m[i - 1]).norm();
+  const int count = std::max(1, static_cast<int>(std::ceil(length_m / keys.section_m - 1e-9)));
+  std::vector<SceneObject> sections;
+  for (int i = 0; i < count; ++i) {
+    SceneObject& section = sections.emplace_back(like);
+    if (count > 1) section.name = fmt::format("{}_{}", like.name, i + 1);
+    section.laid = LaidSection{route, length_m * i / count, length_m * (i + 1) / count};
+    section.place.position_enu_m.head<2>() = position_on(*route, 0.5 * (section.laid->from_m + section.laid->to_m));
+  }
+  return sections;
+}
+
+bool is_line(const solids::Solid& solid) {
+  return std::holds_alternative<solids::Cable>(solid) || std::holds_alternative<solids::Chain>(solid);
+}
+
 }  // namespace
+
+frames::Vec2 position_on(const LaidRoute& route, double along_m) {
+  const auto& places = route.through_enu_m;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double leg_m = (places[i] - places[i - 1]).norm();
+    if (along_m <= leg_m || i + 1 == places.size())
+      return places[i - 1] + std::clamp(along_m / leg_m, 0.0, 1.0) * (places[i] - places[i - 1]);
+    along_m -= leg_m;
+  }
+  return places.front();
+}
 
 Eigen::Matrix3d ObjectPlace::enu_from_object() const {
   const frames::Vec3 hinge(-std::cos(tilt_heading_rad), std::sin(tilt_heading_rad), 0.0);
@@ -127,6 +159,22 @@ void StrewnObjectKeys::check(const ConfigReader& from) const {
   if (burial) rises("burial", *burial);
 }
 
+void LaidKeys::check(const ConfigReader& from) const {
+  constexpr double kNearest_m = 0.01, kMostSections = 10'000.0;
+  if (through_enu_m.size() < 2) return from.problem("through_m", "has fewer than two places; allowed: two or more");
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < through_enu_m.size(); ++i) {
+    const double leg_m = (through_enu_m[i] - through_enu_m[i - 1]).norm();
+    if (leg_m < kNearest_m)
+      return from.problem("through_m", fmt::format("has places {} and {} within {:g} m; allowed are places apart", i,
+                                                   i + 1, kNearest_m));
+    length_m += leg_m;
+  }
+  if (length_m > kMostSections * section_m)
+    from.problem("section_m", fmt::format("makes {:.0f} sections of {:.0f} m; allowed are {:.0f}, so longer ones",
+                                          length_m / section_m, length_m, kMostSections));
+}
+
 void StrewnObjectKeys::complete(ConfigReader& from) { place = from.node().place; }
 
 void ObjectKeys::complete(ConfigReader& from) { written = from.node().place; }
@@ -151,6 +199,17 @@ SceneObject ObjectKeys::common() const {
 
 std::vector<SceneObject> ObjectKeys::objects(const ConfigReader& from, std::uint64_t seed) const {
   SceneObject object = common();
+  const bool line = is_line(object.solid), lies = std::holds_alternative<ObjectLaid>(where);
+  const double length_m = solids::sizes_of(object.solid)[1], sag_m = solids::sizes_of(object.solid)[2];
+  const std::string key = "objects." + name;
+  if (lies && !line)
+    from.problem(key + ".laid",
+                 fmt::format("is for a cable or a chain, and it is a {}", solids::word_of(object.solid)));
+  if (lies && line && (length_m > 0.0 || sag_m > 0.0))
+    from.problem(key + ".laid", "has its length and heights by its way; allowed: no length_m, no sag_m");
+  if (!lies && line && !(length_m > 0.0))
+    from.problem(key, "needs length_m, the distance between its ends, unless it is laid");
+  if (lies) return laid(std::get<ObjectLaid>(where).keys, object);
   if (const auto* many = std::get_if<ObjectStrewn>(&where)) {
     object.place.rests = !many->keys.burial && !tilt_rad;
     if (!object.place.rests) object.place.buried_share = 0.0;

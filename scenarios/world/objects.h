@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/config/config_error.h"
 #include "kernels/mesh/solids/solid.h"
@@ -29,6 +31,22 @@ struct ObjectFile {
   bool y_is_up = false;          // else z
 };
 
+/// The way on which a line lies along the seabed, straight from place to place.
+struct LaidRoute {
+  std::vector<frames::Vec2> through_enu_m;
+  double taut_m = 0.0;  // its tension over the weight of a metre of it in water; 0: limp
+  double buried = 0.0;  // share of its diameter
+};
+
+/// The position so far along a route; beyond its ends they.
+frames::Vec2 position_on(const LaidRoute& route, double along_m);
+
+/// A section of a laid line: from here to there along its route.
+struct LaidSection {
+  std::shared_ptr<const LaidRoute> route;
+  double from_m = 0.0, to_m = 0.0;
+};
+
 /// A thing that is known one by one: it has a class and a number of its own in labels.
 struct SceneObject {
   std::string name;
@@ -37,6 +55,7 @@ struct SceneObject {
   std::uint32_t instance = 0;  // from 1, in the scenario's order
   solids::Solid solid;         // of a file: a mesh without triangles
   std::optional<ObjectFile> file;
+  std::optional<LaidSection> laid;  // a cable or chain whose shape follows from the seabed
   ObjectPlace place;
   bool smooth = false;        // its echo follows from its shape alone; else it scatters as its sediment
   std::uint8_t sediment = 0;  // one of Seabed::sediments

@@ -100,8 +100,11 @@ TEST_CASE("every shape is read with its sizes, and has its word for a class") {
   CHECK(sizes("bottle: {}") == Sizes{0.08, 0.3, 0});
   CHECK(sizes("shell: {diameter_m: 0.2}") == Sizes{0.2, 0.7, 0});
   CHECK(sizes("wedge: {size_m: [1, 2, 0.5]}") == Sizes{1, 2, 0.5});
+  CHECK(sizes("cable: {diameter_m: 0.1, length_m: 6, sag_m: 0.5}") == Sizes{0.1, 6, 0.5});
+  CHECK(sizes("chain: {wire_m: 0.04, length_m: 3}") == Sizes{0.04, 3, 0});
   CHECK(sizes("ladder: {}") == Sizes{0.45, 3, 0.06});
-  for (const char* figure : {"trap", "anchor", "mooring", "person", "boat", "aircraft", "propeller"})
+  for (const char* figure : {"trap", "anchor", "mooring", "person", "boat", "aircraft", "propeller", "net", "hook",
+                             "valve", "sheet_piles", "wreck", "broken_aircraft"})
     CHECK(sizes(std::string(figure) + ": {size_m: [1, 2, 3]}") == Sizes{1, 2, 3});
 }
 
@@ -151,11 +154,42 @@ TEST_CASE("more objects than there is room for are a problem") {
             .find("objects.a.strewn.scale: falls; allowed is [least, most]") != std::string::npos);
 }
 
+TEST_CASE("a laid cable has sections as long as each other, each an instance") {
+  const World world = world_of(
+      "  wire: {cable: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [6, 8], [6, 10]], taut_m: 40, section_m: 5}}\n"
+      "  ball: {sphere: {diameter_m: 0.3}, position_m: [1, 2, -8]}\n");
+  REQUIRE(world.objects.size() == 4);
+  CHECK(world.objects[0].name == "wire_1");
+  CHECK(world.objects[2].laid->from_m == Approx(8.0));
+  CHECK(world.objects[2].laid->to_m == Approx(12.0));
+  CHECK((world.objects[2].place.position_enu_m.head<2>() - frames::Vec2(6, 8)).norm() < 1e-9);
+  CHECK(world.objects[1].laid->route == world.objects[0].laid->route);
+  CHECK(world.objects[0].class_name == "cable");
+  CHECK(world.objects[3].instance == 4);
+}
+
+TEST_CASE("laid lines with a mistake are refused with their place") {
+  const auto says = [](const std::string& object, const std::string& what) {
+    CAPTURE(object, problems_of(object));
+    CHECK(problems_of(object).find(what) != std::string::npos);
+  };
+  says("cable: {diameter_m: 0.1}, laid: {through_m: [[0, 0]]}", "objects.a.laid.through_m: has fewer than two places");
+  says("cable: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [1, 0], [1, 0]]}", "has places 2 and 3 within 0.01 m");
+  says("cable: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [3000, 0]], section_m: 0.1}", "makes 30000 sections");
+  says("cable: {diameter_m: 0.1}, position_m: [0, 0, -5]", "objects.a: needs length_m");
+  says("cable: {diameter_m: 0.1, length_m: 4}, laid: {through_m: [[0, 0], [1, 0]]}", "allowed: no length_m, no sag_m");
+  says("sphere: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [1, 0]]}",
+       "is for a cable or a chain, and it is a sphere");
+}
+
 TEST_CASE("objects with a mistake are refused with their place") {
-  CHECK(problems_of("on_seabed: {at_m: [0, 0]}") ==
-        "s.yaml:6:6: objects.a: needs one of sphere, box, cylinder, plate, cone, tyre, pipe, bottle, "
-        "shell, wedge, ladder, trap, anchor, mooring, person, boat, aircraft, propeller, mesh");
-  CHECK(problems_of("sphere: {diameter_m: 1}") == "s.yaml:6:6: objects.a: needs one of on_seabed, position_m, strewn");
+  CHECK(
+      problems_of("on_seabed: {at_m: [0, 0]}") ==
+      "s.yaml:6:6: objects.a: needs one of sphere, box, cylinder, plate, cone, tyre, pipe, bottle, "
+      "shell, wedge, cable, chain, ladder, trap, anchor, mooring, person, boat, aircraft, propeller, net, hook, valve, "
+      "sheet_piles, wreck, broken_aircraft, mesh");
+  CHECK(problems_of("sphere: {diameter_m: 1}") ==
+        "s.yaml:6:6: objects.a: needs one of on_seabed, position_m, strewn, laid");
   CHECK(problems_of("sphere: {diameter_m: 1}, box: {size_m: [1, 1, 1]}, position_m: [0, 0, -5]") ==
         "s.yaml:6:37: objects.a.box: stands beside sphere; give one shape");
   CHECK(problems_of("sphere: {diameter_m: 1}, position_m: [0, 0, -5], on_seabed: {at_m: [0, 0]}") ==

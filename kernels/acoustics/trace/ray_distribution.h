@@ -116,7 +116,7 @@ struct RaySettings {
   /// kPreview is for a quick preview and kReference to compare with.
   double quality = kNormal;
   double range_resolution_m = 0.1;    // c tau / 2, or c / 2B of a chirp
-  std::size_t most_rays = 2'000'000;  // per transmission: every cell gives way by the same share beyond
+  std::size_t most_rays = 4'000'000;  // per transmission: every cell gives way by the same share beyond
   std::size_t fewest_rays = 0;        // at normal quality, else that times the quality: cells share in what is missing
   double fewest_in_main_cell = 0.0;   // rays to a cell of directions in the main lobe, at any quality; less beyond
 
@@ -232,7 +232,7 @@ class RayDistribution {
       const profile::Span span(profile::Stage::kRays);
       fill(plan, first, count, batch);
     }
-    const profile::Span span(profile::Stage::kTrace);
+    const profile::Span span(profile::Stage::kTrace, batch.rays.size());
     trace(batch.rays, batch.hits);
     settle(plan, batch);
   }

@@ -49,11 +49,12 @@ namespace detail {
 
 Opened open(Stage stage) { return {now_ns(CLOCK_MONOTONIC), now_ns(processor_clock(stage))}; }
 
-void close(Stage stage, const Opened& opened) {
+void close(Stage stage, const Opened& opened, std::size_t items) {
   Log& log = log_of_this_thread();
   const std::int64_t took_ns = now_ns(CLOCK_MONOTONIC) - opened.wall_ns;
   Sum& sum = log.sums[static_cast<std::size_t>(stage)];
   ++sum.count;
+  sum.items += static_cast<std::int64_t>(items);
   sum.wall_ns += took_ns;
   sum.processor_ns += now_ns(processor_clock(stage)) - opened.processor_ns;
   if (is_part(stage)) return;
@@ -78,6 +79,7 @@ Report report() {
   for (const auto& log : logs().of_threads) {
     for (std::size_t i = 0; i < kStages; ++i) {
       all.sums[i].count += log->sums[i].count;
+      all.sums[i].items += log->sums[i].items;
       all.sums[i].wall_ns += log->sums[i].wall_ns;
       all.sums[i].processor_ns += log->sums[i].processor_ns;
     }

@@ -41,6 +41,7 @@ struct Sum {
   std::int64_t count = 0;
   std::int64_t wall_ns = 0;
   std::int64_t processor_ns = 0;  // of all threads of the process meanwhile; of a part, its own thread
+  std::int64_t items = 0;         // that it worked on: rays that were traced, scatterers that echo
 };
 struct Event {
   Stage stage{};
@@ -65,23 +66,25 @@ struct Opened {
   std::int64_t wall_ns = 0, processor_ns = 0;
 };
 Opened open(Stage stage);
-void close(Stage stage, const Opened& opened);
+void close(Stage stage, const Opened& opened, std::size_t items);
 }  // namespace detail
 
-/// Time from here to the end of the block.
+/// Time from here to the end of the block, and how many items are worked on in it.
 class Span {
  public:
-  explicit Span(Stage stage) : stage_(stage), measured_(detail::on.load(std::memory_order_relaxed)) {
+  explicit Span(Stage stage, std::size_t items = 0)
+      : stage_(stage), items_(items), measured_(detail::on.load(std::memory_order_relaxed)) {
     if (measured_) opened_ = detail::open(stage);
   }
   ~Span() {
-    if (measured_) detail::close(stage_, opened_);
+    if (measured_) detail::close(stage_, opened_, items_);
   }
   Span(const Span&) = delete;
   Span& operator=(const Span&) = delete;
 
  private:
   Stage stage_;
+  std::size_t items_;
   bool measured_;
   detail::Opened opened_;
 };

@@ -25,7 +25,7 @@ TEST_CASE("spans are summed by stage over all threads, none before the start") {
   profile::start();
   for (int i = 0; i < 2; ++i) {
     const Span step(Stage::kStep);
-    const Span trace(Stage::kTrace);
+    const Span trace(Stage::kTrace, 20);
     sleep_ms(5);
   }
   const auto share = [] {
@@ -38,6 +38,7 @@ TEST_CASE("spans are summed by stage over all threads, none before the start") {
 
   const profile::Report report = profile::report();
   CHECK(sum_of(report, Stage::kTrace).count == 2);
+  CHECK(sum_of(report, Stage::kTrace).items == 40);
   CHECK(sum_of(report, Stage::kTrace).wall_ns >= 10 * kMs);
   CHECK(sum_of(report, Stage::kTrace).wall_ns <= sum_of(report, Stage::kStep).wall_ns);
   CHECK(sum_of(report, Stage::kTrace).processor_ns < sum_of(report, Stage::kTrace).wall_ns);  // it slept

@@ -141,6 +141,150 @@ std::vector<Part> propeller(const Vec3& size_m) {
   return parts;
 }
 
+/// A sheet of netting across x and z that bulges along y: sixteen meshes along its shorter side, knots of twine a tenth
+/// of a mesh thick.
+std::vector<Part> net(const Vec3& size_m) {
+  constexpr int kMeshes = 16, kPieces = 8;
+  const double mesh_m = std::min(size_m.x(), size_m.z()) / kMeshes, twine_m = std::min(0.1 * mesh_m, size_m.y());
+  const Vec3 extent = size_m - Vec3::Constant(twine_m);
+  const auto at_share = [&](double x, double z) {  // of both sides, -0.5 to 0.5
+    const double bulge = std::cos(std::numbers::pi * x) * std::cos(std::numbers::pi * z) - 0.5;
+    return Vec3(extent.x() * x, extent.y() * bulge, extent.z() * z);
+  };
+  std::vector<Part> parts;
+  const auto twines = [&](double across_m, const auto& place) {
+    const int count = std::max(1, static_cast<int>(std::lround(across_m / mesh_m)));
+    for (int i = 0; i <= count; ++i) {
+      for (int k = 0; k < kPieces; ++k) {
+        const double share = static_cast<double>(i) / count - 0.5;
+        const double from = static_cast<double>(k) / kPieces - 0.5, to = static_cast<double>(k + 1) / kPieces - 0.5;
+        parts.push_back(bar(place(share, from), place(share, to), twine_m));
+      }
+    }
+  };
+  twines(size_m.x(), [&](double i, double k) { return at_share(i, k); });
+  twines(size_m.z(), [&](double i, double k) { return at_share(k, i); });
+  return parts;
+}
+
+/// A crane's hook that hangs: an eye above, a shank, and a bow below, open to the east.
+std::vector<Part> hook(const Vec3& size_m) {
+  const double bar_m = std::min(size_m.y(), 0.25 * size_m.x()), eye_m = 0.3 * size_m.z();
+  const double round_x = 0.5 * (size_m.x() - bar_m), round_z = 0.3 * (size_m.z() - bar_m);
+  const double top_m = 0.5 * size_m.z(), low_m = 0.5 * bar_m - top_m + round_z;  // the bow's middle
+  Part eye = at(Tyre{eye_m, 0.25 * eye_m}, {0, 0, top_m - 0.5 * eye_m});
+  eye.pose.rotate(Eigen::AngleAxisd(kQuarter, Vec3::UnitX()));
+  std::vector<Part> parts{eye};
+  constexpr int kPieces = 10;
+  const auto bow = [&](int i) {  // from above by the west round to the east
+    const double turn = kQuarter + 1.55 * std::numbers::pi * i / kPieces;
+    return Vec3(round_x * std::cos(turn), 0.0, low_m + round_z * std::sin(turn));
+  };
+  parts.push_back(bar({0, 0, top_m - 0.9 * eye_m}, bow(0), bar_m));
+  for (int i = 0; i < kPieces; ++i) parts.push_back(bar(bow(i), bow(i + 1), bar_m * (i < 7 ? 1.0 : 0.75)));
+  return parts;
+}
+
+/// A gate valve in a pipe along y: a body between two flanges, a bonnet, a stem and a handwheel above.
+std::vector<Part> valve(const Vec3& size_m) {
+  const double flange_m = std::min(size_m.x(), 0.5 * size_m.z()), bottom_m = -0.5 * size_m.z();
+  const double axis_m = bottom_m + 0.5 * flange_m, thick_m = 0.1 * size_m.y(), top_m = 0.5 * size_m.z();
+  const double wheel_m = 0.9 * size_m.x(), tube_m = 0.12 * wheel_m;
+  std::vector<Part> parts{
+      at(Cylinder{0.6 * flange_m, size_m.y()}, {0, 0, axis_m}),
+      at(Box{{0.5 * flange_m, 0.35 * size_m.y(), 0.5 * flange_m}}, {0, 0, axis_m + 0.45 * flange_m}),
+      bar({0, 0, axis_m}, {0, 0, top_m - tube_m}, 0.15 * flange_m),
+      at(Tyre{wheel_m, tube_m}, {0, 0, top_m - 0.5 * tube_m}),
+      bar({-0.45 * wheel_m, 0, top_m - 0.5 * tube_m}, {0.45 * wheel_m, 0, top_m - 0.5 * tube_m}, 0.7 * tube_m)};
+  for (const double end : {-1.0, 1.0})
+    parts.push_back(at(Cylinder{flange_m, thick_m}, {0, end * 0.5 * (size_m.y() - thick_m), axis_m}));
+  return parts;
+}
+
+/// Steel sheet piles side by side: flat pans by turns south and north, joined by webs that lean.
+std::vector<Part> sheet_piles(const Vec3& size_m) {
+  const double thick_m = std::min(0.06 * size_m.y(), 0.02), deep_m = size_m.y() - thick_m;
+  const int count = std::max(1, static_cast<int>(std::lround(size_m.x() / (1.7 * size_m.y()))));
+  const double pitch_m = size_m.x() / count, pan_m = 0.3 * pitch_m, web_m = 0.2 * pitch_m;
+  std::vector<Part> parts;
+  const auto sheet = [&](double from_x, double from_y, double to_x, double to_y) {
+    const Vec3 along(to_x - from_x, to_y - from_y, 0.0);
+    parts.push_back(turned_at(Box{{along.norm(), thick_m, size_m.z()}},
+                              {0.5 * (from_x + to_x), 0.5 * (from_y + to_y), 0}, std::atan2(along.y(), along.x()),
+                              Vec3::UnitZ()));
+  };
+  for (int i = 0; i < count; ++i) {
+    double x = -0.5 * size_m.x() + pitch_m * i;
+    const double south = -0.5 * deep_m, north = 0.5 * deep_m;
+    sheet(x, south, x + pan_m, south), x += pan_m;
+    sheet(x, south, x + web_m, north), x += web_m;
+    sheet(x, north, x + pan_m, north), x += pan_m;
+    sheet(x, north, x + web_m, south);
+  }
+  return parts;
+}
+
+/// A part moved and turned with what it belongs to.
+std::vector<Part> moved(std::vector<Part> parts, const Vec3& by_m, double angle_rad, const Vec3& axis) {
+  Eigen::Isometry3d pose(Eigen::Translation3d{by_m});
+  pose.rotate(Eigen::AngleAxisd(angle_rad, axis));
+  for (Part& part : parts) part.pose = pose * part.pose;
+  return parts;
+}
+
+void append(std::vector<Part>& parts, const std::vector<Part>& more) {
+  parts.insert(parts.end(), more.begin(), more.end());
+}
+
+/// A ship that broke in two: the stern half upright with its house, the bow half turned and heeled over, ribs between
+/// them, a mast on the ground.
+std::vector<Part> wreck(const Vec3& size_m) {
+  const double beam_m = 0.6 * size_m.x(), length_m = size_m.y(), high_m = size_m.z(), hull_m = 0.55 * high_m;
+  const double floor_m = -0.5 * high_m, half_m = 0.42 * length_m, thick_m = 0.02 * beam_m;
+  std::vector<Part> stern{
+      at(Box{{beam_m, half_m, hull_m}}, {0, 0, 0.5 * hull_m}),
+      at(Box{{0.6 * beam_m, 0.35 * half_m, high_m - hull_m}}, {0, -0.2 * half_m, hull_m + 0.5 * (high_m - hull_m)})};
+  std::vector<Part> parts = moved(stern, {-0.1 * size_m.x(), -0.5 * (length_m - half_m), floor_m}, 0.0, Vec3::UnitZ());
+  constexpr double kHeel = 0.35;
+  const double heeled_m = hull_m * std::cos(kHeel) + beam_m * std::sin(kHeel);  // its height
+  std::vector<Part> bow{at(Box{{beam_m, 0.5 * half_m, hull_m}}, {0, -0.25 * half_m, 0})};
+  for (const double side : {-1.0, 1.0}) {
+    Part cheek = at(Wedge{{hull_m, 0.5 * half_m, 0.5 * beam_m}}, {side * 0.25 * beam_m, 0.25 * half_m, 0});
+    cheek.pose.rotate(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitZ()));
+    cheek.pose.rotate(Eigen::AngleAxisd(-side * kQuarter, Vec3::UnitY()));
+    bow.push_back(cheek);
+  }
+  bow = moved(bow, Vec3::Zero(), kHeel, Vec3::UnitY());
+  append(parts,
+         moved(bow, {0.1 * size_m.x(), 0.5 * (length_m - half_m), floor_m + 0.5 * heeled_m}, -0.17, Vec3::UnitZ()));
+  for (int i = 0; i < 4; ++i) {
+    const double y_m = length_m * (0.02 * i - 0.06);
+    for (const double side : {-1.0, 1.0})
+      parts.push_back(bar({side * 0.4 * beam_m, y_m, floor_m + thick_m},
+                          {side * 0.5 * beam_m, y_m, floor_m + (0.6 - 0.1 * i) * hull_m}, 2.0 * thick_m));
+  }
+  const double mast_m = 0.04 * beam_m;
+  parts.push_back(bar({0.5 * (size_m.x() - mast_m), -0.2 * length_m, floor_m + 0.5 * mast_m},
+                      {0.36 * size_m.x(), 0.12 * length_m, floor_m + 0.5 * mast_m}, mast_m));
+  return parts;
+}
+
+/// An aircraft after its crash: the fuselage in two, one wing where it was, the other beside it, the tail turned.
+std::vector<Part> broken_aircraft(const Vec3& size_m) {
+  const double span_m = 0.5 * size_m.x(), length_m = size_m.y(), body_m = std::min(0.6 * size_m.z(), 0.2 * length_m);
+  const double thick_m = 0.12 * body_m, floor_m = -0.5 * size_m.z(), z_m = floor_m + 0.5 * body_m;
+  const double fin_m = size_m.z() - 0.5 * body_m;
+  std::vector<Part> parts{at(Shell{body_m, 0.55 * length_m}, {0, 0.225 * length_m, z_m}),
+                          at(Box{{span_m, 0.18 * length_m, thick_m}}, {-0.5 * span_m, 0.12 * length_m, z_m}),
+                          turned_at(Box{{0.9 * span_m, 0.18 * length_m, thick_m}},
+                                    {0.54 * span_m, -0.05 * length_m, floor_m + thick_m}, 0.35, Vec3::UnitZ())};
+  const std::vector<Part> tail{at(Cylinder{0.7 * body_m, 0.38 * length_m}, Vec3::Zero()),
+                               at(Box{{0.6 * span_m, 0.1 * length_m, thick_m}}, {0, -0.13 * length_m, 0}),
+                               at(Box{{thick_m, 0.12 * length_m, fin_m}}, {0, -0.13 * length_m, 0.5 * fin_m})};
+  append(parts, moved(tail, {-0.05 * size_m.x(), -0.24 * length_m, z_m}, 0.4, Vec3::UnitZ()));
+  return parts;
+}
+
 }  // namespace
 
 std::vector<Part> parts_of(const Figure& figure) {
@@ -153,6 +297,12 @@ std::vector<Part> parts_of(const Figure& figure) {
     case Figure::Kind::kBoat: return boat(figure.size_m);
     case Figure::Kind::kAircraft: return aircraft(figure.size_m);
     case Figure::Kind::kPropeller: return propeller(figure.size_m);
+    case Figure::Kind::kNet: return net(figure.size_m);
+    case Figure::Kind::kHook: return hook(figure.size_m);
+    case Figure::Kind::kValve: return valve(figure.size_m);
+    case Figure::Kind::kSheetPiles: return sheet_piles(figure.size_m);
+    case Figure::Kind::kWreck: return wreck(figure.size_m);
+    case Figure::Kind::kBrokenAircraft: return broken_aircraft(figure.size_m);
   }
   return {};
 }

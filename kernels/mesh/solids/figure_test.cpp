@@ -20,7 +20,10 @@ const std::vector<Known> kFigures{
     {Figure::Kind::kLadder, {0.5, 3.0, 0.06}, 12},  {Figure::Kind::kTrap, {0.6, 0.9, 0.4}, 20},
     {Figure::Kind::kAnchor, {0.8, 1.2, 0.5}, 5},    {Figure::Kind::kMooring, {1.0, 1.0, 6.0}, 3},
     {Figure::Kind::kPerson, {0.5, 1.8, 0.25}, 7},   {Figure::Kind::kBoat, {2.0, 6.0, 2.0}, 4},
-    {Figure::Kind::kAircraft, {12.0, 9.0, 3.0}, 4}, {Figure::Kind::kPropeller, {1.0, 0.3, 1.0}, 5}};
+    {Figure::Kind::kAircraft, {12.0, 9.0, 3.0}, 4}, {Figure::Kind::kPropeller, {1.0, 0.3, 1.0}, 5},
+    {Figure::Kind::kNet, {1.0, 0.3, 1.0}, 272},     {Figure::Kind::kHook, {0.5, 0.12, 1.0}, 12},
+    {Figure::Kind::kValve, {0.5, 0.7, 1.0}, 7},     {Figure::Kind::kSheetPiles, {6.0, 0.4, 3.0}, 36},
+    {Figure::Kind::kWreck, {10.0, 30.0, 6.0}, 14},  {Figure::Kind::kBrokenAircraft, {12.0, 9.0, 3.0}, 6}};
 
 }  // namespace
 

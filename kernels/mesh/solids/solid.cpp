@@ -12,6 +12,7 @@
 #include "kernels/mesh/solids/facet.h"
 #include "kernels/mesh/solids/figure.h"
 #include "kernels/mesh/solids/lathe.h"
+#include "kernels/mesh/solids/line.h"
 
 namespace ensonify::solids {
 namespace {
@@ -264,6 +265,14 @@ Surface surface_of(const Wedge& wedge, double) {
   return {mesh, {}};
 }
 
+Surface surface_of(const Cable& cable, double sagitta_m) {
+  return rope_along(catenary(cable.length_m, cable.sag_m, sagitta_m), cable.diameter_m, sagitta_m);
+}
+
+Surface surface_of(const Chain& chain, double sagitta_m) {
+  return chain_along(catenary(chain.length_m, chain.sag_m, sagitta_m), chain.wire_m, sagitta_m);
+}
+
 /// Adds a part of a whole, where it stands.
 void add(Surface& whole, const Surface& part, const Eigen::Isometry3d& pose) {
   const auto first = static_cast<std::uint32_t>(whole.mesh.vertex_m.size());
@@ -299,6 +308,8 @@ double radius_m(const Pipe& pipe) { return 0.5 * std::hypot(pipe.diameter_m, pip
 double radius_m(const Bottle& bottle) { return 0.5 * std::hypot(bottle.diameter_m, bottle.length_m); }
 double radius_m(const Shell& shell) { return 0.5 * std::hypot(shell.diameter_m, shell.length_m); }
 double radius_m(const Wedge& wedge) { return 0.5 * wedge.size_m.norm(); }
+double radius_m(const Cable& cable) { return 0.5 * (std::hypot(cable.length_m, cable.sag_m) + cable.diameter_m); }
+double radius_m(const Chain& chain) { return 0.5 * std::hypot(chain.length_m, chain.sag_m) + 3.6 * chain.wire_m; }
 double radius_m(const Figure& figure) { return 0.5 * figure.size_m.norm(); }
 double radius_m(const Mesh& mesh) {
   float radius2_m2 = 0.0F;

@@ -67,9 +67,38 @@ struct Wedge {
   frames::Vec3 size_m = frames::Vec3::Zero();
 };
 
+/// A rope, hose or cable that hangs between two ends along y: a catenary, straight without sag.
+struct Cable {
+  double diameter_m = 0.0;
+  double length_m = 0.0;  // from end to end
+  double sag_m = 0.0;
+};
+
+/// Links of ship's chain that hang so.
+struct Chain {
+  double wire_m = 0.0;  // diameter of the links' wire
+  double length_m = 0.0;
+  double sag_m = 0.0;
+};
+
 /// A thing made of several simple bodies (figure.h), with these extents along x, y and z.
 struct Figure {
-  enum class Kind { kLadder, kTrap, kAnchor, kMooring, kPerson, kBoat, kAircraft, kPropeller };
+  enum class Kind {
+    kLadder,
+    kTrap,
+    kAnchor,
+    kMooring,
+    kPerson,
+    kBoat,
+    kAircraft,
+    kPropeller,
+    kNet,
+    kHook,
+    kValve,
+    kSheetPiles,
+    kWreck,
+    kBrokenAircraft
+  };
   Kind kind = Kind::kLadder;
   frames::Vec3 size_m = frames::Vec3::Zero();
 };
@@ -81,7 +110,8 @@ struct Mesh {
   double scale = 1.0;
 };
 
-using Solid = std::variant<Sphere, Box, Cylinder, Plate, Cone, Tyre, Pipe, Bottle, Shell, Wedge, Figure, Mesh>;
+using Solid =
+    std::variant<Sphere, Box, Cylinder, Plate, Cone, Tyre, Pipe, Bottle, Shell, Wedge, Cable, Chain, Figure, Mesh>;
 
 /// Whether only one side of its surface can be seen: a plate has two.
 bool is_closed(const Solid& solid);

@@ -7,9 +7,11 @@ namespace {
 
 using Sizes = std::array<double, 3>;
 
-constexpr std::array<const char*, std::variant_size_v<Solid>> kWords{
-    "sphere", "box", "cylinder", "plate", "cone", "tyre", "pipe", "bottle", "shell", "wedge", "", "mesh"};
-constexpr std::array kFigures{"ladder", "trap", "anchor", "mooring", "person", "boat", "aircraft", "propeller"};
+constexpr std::array<const char*, std::variant_size_v<Solid>> kWords{"sphere", "box",   "cylinder", "plate", "cone",
+                                                                     "tyre",   "pipe",  "bottle",   "shell", "wedge",
+                                                                     "cable",  "chain", "",         "mesh"};
+constexpr std::array kFigures{"ladder",    "trap", "anchor", "mooring", "person",      "boat",  "aircraft",
+                              "propeller", "net",  "hook",   "valve",   "sheet_piles", "wreck", "broken_aircraft"};
 
 Sizes sizes(const Sphere& one) { return {one.diameter_m, 0.0, 0.0}; }
 Sizes sizes(const Box& one) { return {one.size_m.x(), one.size_m.y(), one.size_m.z()}; }
@@ -21,6 +23,8 @@ Sizes sizes(const Pipe& one) { return {one.diameter_m, one.length_m, one.wall_m}
 Sizes sizes(const Bottle& one) { return {one.diameter_m, one.length_m, 0.0}; }
 Sizes sizes(const Shell& one) { return {one.diameter_m, one.length_m, 0.0}; }
 Sizes sizes(const Wedge& one) { return {one.size_m.x(), one.size_m.y(), one.size_m.z()}; }
+Sizes sizes(const Cable& one) { return {one.diameter_m, one.length_m, one.sag_m}; }
+Sizes sizes(const Chain& one) { return {one.wire_m, one.length_m, one.sag_m}; }
 Sizes sizes(const Figure& one) { return {one.size_m.x(), one.size_m.y(), one.size_m.z()}; }
 Sizes sizes(const Mesh& one) { return {one.scale, 0.0, 0.0}; }
 
@@ -47,6 +51,8 @@ std::optional<Solid> solid_of(const std::string& word, const std::array<double, 
   if (word == "bottle") return Bottle{a, b};
   if (word == "shell") return Shell{a, b};
   if (word == "wedge") return Wedge{{a, b, c}};
+  if (word == "cable") return Cable{a, b, c};
+  if (word == "chain") return Chain{a, b, c};
   for (std::size_t kind = 0; kind < kFigures.size(); ++kind) {
     if (word == kFigures[kind]) return Figure{static_cast<Figure::Kind>(kind), {a, b, c}};
   }

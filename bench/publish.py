@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""Writes docs/performance.md out of what `bench/run.py --json FILE` measured.
+
+    bench/run.py --only table --json table.json && bench/publish.py table.json > docs/performance.md
+"""
+import argparse
+import json
+import pathlib
+
+HEAD = """# How fast it is
+
+Pings, or images, a second of wall time in a free run: vehicle, navigation, pager and head as processes of their own, all effects on. Sim time keeps
+2 R / c and the dead time, so many of these are faster than the sea allows. Windy is 5 m/s of wind, whose waves leave no path by the surface; calm has
+the echoes by way of the surface. Rays are those traced in a ping. `./dev bench --only table --json FILE` measures it again (bench/table_bench.py has the
+configurations), `bench/publish.py FILE` writes this page, and `bench/compare.py COMMIT` holds a commit against another, in turns.
+
+| head | sea | pings/s | goal | rays | processor time of a ping | of a ray |
+|---|---|---|---|---|---|---|
+"""
+TAIL = """
+{cpu}, {cores} cores, commit {commit}.{note} What each stage of a ping takes is shown by `ensonify run --profile` ([benchmarks](manual/benchmarks.md)); what made stages fast, and what
+did not, is in [decisions](decisions/speed.md). Absolute times belong to a machine and its load.
+"""
+
+
+def page(results: dict, note: str) -> str:
+    lines = [HEAD]
+    for row in (row for row in results["rows"] if "case" in row):
+        goal = f"{row['goal']}{'' if row['value'] >= row['goal'] else ' (missed)'}" if row["goal"] else ""
+        lines.append(f"| {row['case']} | {row['sea']} | {row['value']:.3g} | {goal} | {row['rays']:,.0f} | "
+                     f"{row['processor_ms']:.3g} ms | {1e6 * row['processor_ms'] / row['rays']:.0f} ns |\n")
+    lines.append(TAIL.format(**results["machine"], note=f" {note}" if note else ""))
+    return "".join(lines)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", type=pathlib.Path, help="JSON of bench/run.py")
+    parser.add_argument("--note", default="", help="a sentence about the machine's load")
+    options = parser.parse_args()
+    print(page(json.loads(options.results.read_text()), options.note), end="")
