@@ -1,9 +1,10 @@
 """What nav_feed bears, outside CI's time: a day of a log at full speed, and a flood of sentences in real time.
 
-  feed_soak.py --build build/dev [day] [flood]      both, where none is named; exit code 1 when something does not hold
+  feed_soak.py --build build/dev [day] [flood] [pace]      all, where none is named; exit code 1 when something does not hold
 
 day: 24 h of GGA, HDT and PASHR at 1 Hz from a file, across midnight and a leap second: each fix once, a second after the one
 before. The file is played by its own times, so it covers decoding and time bases, not sockets. --hours makes it shorter about midnight.
+pace: 10 minutes (--minutes) of 10 fixes and 100 motion sentences a second in real time: no late event, no sample lost.
 flood: 100,000 sentences a second in datagrams of 60 kB beside fixes at 1 Hz, for 15 s: no late event, bounded memory.
 """
 import argparse
@@ -19,6 +20,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "clients/python"), str(ROOT / "tests/support")]
 import ensonify  # noqa: E402
+from feed_bench import measure  # noqa: E402
 from nmea import free_port, sentence  # noqa: E402
 
 DAY_S = 86_400
@@ -119,19 +121,29 @@ def flood(build, folder):
     return run.returncode == 0 and sent / second > 90_000 and most_mb < 100 and late["boat"] == 0 and len(stamps) >= seconds - 6
 
 
+def pace(build, minutes):
+    found = measure(build, round(60 * minutes), timed=True)
+    most_ms = 1e3 * abs(found["place_s"]).max()
+    print(f"pace: {minutes:g} min, {found['late']} late events, places off their time by {most_ms:.3f} ms at most, {json.dumps(found['counts'])}")
+    wrong = [name for name in found["counts"] if name not in ("fixes_taken", "motions_taken", "sentences_before_the_first_fix", "poses_guessed")]
+    return found["late"] == 0 and most_ms <= 1 and not wrong
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/dev")
     parser.add_argument("--hours", type=float, default=24, help="length of the day, half of it before midnight (default 24)")
-    parser.add_argument("what", nargs="*", help="day, flood")
+    parser.add_argument("--minutes", type=float, default=10, help="length of the pace (default 10)")
+    parser.add_argument("what", nargs="*", choices=["day", "flood", "pace", []], help="day, flood, pace")
     options = parser.parse_args()
-    good = True
-    for what in (day, flood):
-        if options.what and what.__name__ not in options.what:
+    build, good = options.build.resolve(), True
+    checks = {"day": lambda folder: day(build, folder, options.hours), "flood": lambda folder: flood(build, folder),
+              "pace": lambda folder: pace(build, options.minutes)}
+    for name, check in checks.items():
+        if options.what and name not in options.what:
             continue
         with tempfile.TemporaryDirectory() as folder:
-            more = [options.hours] if what is day else []
-            good = what(options.build.resolve(), pathlib.Path(folder), *more) and good
+            good = check(pathlib.Path(folder)) and good
     sys.exit(0 if good else 1)
 
 
