@@ -20,6 +20,7 @@ from console_bench import bench_console
 from dataset_bench import bench_dataset
 from drive_bench import bench_drive
 from environment_bench import bench_environment
+from feed_bench import bench_feed
 from head_benches import bench_heads
 from harness import ROOT, Bench, row
 from labels_bench import bench_labels
@@ -45,7 +46,7 @@ def bench_kernels(b):
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
            "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "labels": bench_labels,
-           "dataset": bench_dataset, "logger": bench_logger,
+           "dataset": bench_dataset, "logger": bench_logger, "feed": bench_feed,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "kernels": bench_kernels}
 

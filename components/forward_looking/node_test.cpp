@@ -103,7 +103,7 @@ TEST_CASE("a head that can only see black says why") {
   CHECK_THAT(health_at(config, -5.0), Catch::StartsWith("degraded: nothing within the range of 20.0 m where the head "
                                                         "points (side lobes hit something): it points over the seabed "
                                                         "10.0 m below"));
-  CHECK(health_at(config, 2.0) == "degraded: the head is 2.0 m above the water");
+  CHECK(health_at(config, 2.0) == "degraded: the head is 2.00 m above the water");
   Head blind(config);
   CHECK(last_health(blind, 150_ms) == "degraded: no pose of the vehicle has arrived");
   Head lost(config);
@@ -117,9 +117,9 @@ TEST_CASE("on a tide the water is where it stands, not at chart datum") {
   config.range_m = 60.0;
   world_of(config).vertical.tide = vertical::Tide(3.0);
   CHECK(health_at(config, 2.0) == "ok: ");
-  CHECK(health_at(config, 4.0) == "degraded: the head is 1.0 m above the water");
+  CHECK(health_at(config, 4.0) == "degraded: the head is 1.00 m above the water");
   world_of(config).vertical.tide = vertical::Tide(-3.0);
-  CHECK(health_at(config, -2.0) == "degraded: the head is 1.0 m above the water");
+  CHECK(health_at(config, -2.0) == "degraded: the head is 1.00 m above the water");
 }
 
 TEST_CASE("a command changes range and rate from the next ping on, clamped to the limits") {

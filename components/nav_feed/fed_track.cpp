@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "components/errors/overloaded.h"
+#include "components/formats/time_of_day.h"
 #include "components/nav_feed/wording.h"
 #include "kernels/vehicle/motion/lever.h"
 #include "kernels/vehicle/vertical/reduction.h"
@@ -10,7 +11,8 @@
 namespace ensonify {
 namespace {
 
-constexpr double kDay_s = 86400.0;
+using formats::kDay_s;
+
 constexpr double kSameTime_s = 0.5e-3;    // times have three decimals at most; it bounds what is kept
 constexpr double kAccuracyLasts_s = 2.5;  // GST comes before or behind its GGA, once a second
 constexpr SimTime kGgaIsGone = std::chrono::seconds(5);
@@ -204,7 +206,7 @@ void FedTrack::follow(const ArrivedFix& found) {
     fix_->height_above_geoid_m = *fix.height_above_geoid_m;
   }
   fix_->geoid_above_ellipsoid_m = fix.geoid_above_ellipsoid_m.value_or(0.0);
-  if (accuracy_ && std::abs(time_of_day_step_s(accuracy_->time_s, fix.time_s)) < kAccuracyLasts_s) {
+  if (accuracy_ && std::abs(formats::time_of_day_step_s(accuracy_->time_s, fix.time_s)) < kAccuracyLasts_s) {
     fix_->sigma_horizontal_m = std::hypot(accuracy_->latitude_m, accuracy_->longitude_m) / std::sqrt(2.0);
     fix_->sigma_vertical_m = accuracy_->height_m.value_or(0.0);
   }

@@ -2,10 +2,12 @@
 
 #include <cmath>
 
-#include "components/nav_feed/time_base.h"
+#include "components/formats/time_of_day.h"
 
 namespace ensonify {
 namespace {
+
+using formats::time_of_day_step_s;
 
 constexpr std::size_t kFewest = 3;
 constexpr double kShortest_s = 1.0;

@@ -4,7 +4,7 @@
 
 #include "components/errors/exit_error.h"
 #include "components/formats/nmea/navigation.h"
-#include "components/nav_feed/time_base.h"
+#include "components/formats/time_of_day.h"
 
 namespace ensonify {
 namespace {
@@ -34,7 +34,7 @@ void LogPlayer::read_next() {
   const std::size_t begin = line.find('$');
   if (begin != std::string::npos) line.erase(0, begin);
   if (const auto time_s = time_of(nmea::read_navigation(line))) {
-    const double step_s = time_of_day_s_ ? time_of_day_step_s(*time_of_day_s_, *time_s) : 0.0;
+    const double step_s = time_of_day_s_ ? formats::time_of_day_step_s(*time_of_day_s_, *time_s) : 0.0;
     if (step_s > 0.0 && step_s <= kLongestPause_s) time_ += from_seconds(step_s);
     if (step_s > 0.0 || step_s < -kSmallStepBack_s || !time_of_day_s_) time_of_day_s_ = time_s;
   }

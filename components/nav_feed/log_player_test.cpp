@@ -31,6 +31,15 @@ TEST_CASE("a log is played by its own times, across midnight; what has none come
         std::vector<double>{5.0, 5.0, 6.0, 6.0, 8.0});
 }
 
+TEST_CASE("a leap second of a log lasts a second, and what has no time comes with it") {
+  const auto at_leap = [](const std::string& tenth) {
+    return motion_sentence(0.0, 0, 0).replace(7, 10, "235960." + tenth + "00");
+  };
+  const auto framed = [](std::string line) { return nmea::sentence(line.substr(1, line.find('*') - 1)); };
+  CHECK(arrivals(fix(86399.0, 0, 0) + framed(at_leap("0")) + heading(1.0) + framed(at_leap("5")) + fix(0.0, 0, 0) +
+                 fix(1.0, 0, 0)) == std::vector<double>{5.0, 6.0, 6.0, 6.5, 7.0, 8.0});
+}
+
 TEST_CASE("a log that starts again goes on at once") {
   CHECK(arrivals(fix(100.0, 0, 0) + fix(101.0, 0, 0) + fix(50.0, 0, 0) + fix(51.0, 0, 0)) ==
         std::vector<double>{5.0, 6.0, 6.0, 7.0});

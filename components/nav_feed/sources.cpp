@@ -1,6 +1,7 @@
 #include "components/nav_feed/sources.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "components/errors/exit_error.h"
 #include "components/errors/overloaded.h"
@@ -31,7 +32,7 @@ std::variant<std::unique_ptr<Receiver>, std::unique_ptr<LogPlayer>> opened(const
 Sources::Sources(const std::vector<FeedSource>& sources) {
   for (const FeedSource& source : sources) {
     try {
-      open_.push_back({source.name, opened(source)});
+      open_.push_back({source.name, opened(source), std::nullopt});
     } catch (const UserError& error) {
       throw UserError("sources." + source.name + ": " + error.what());
     }
@@ -41,7 +42,7 @@ Sources::Sources(const std::vector<FeedSource>& sources) {
 std::vector<FedPiece> Sources::take(SimTime now) {
   std::vector<FedPiece> taken;
   const std::size_t bytes_each = kMostBytes / open_.size(), pieces_each = 1 + kMostPieces / open_.size();
-  const auto wall = Receiver::Clock::now();
+  clock_.event(now, Receiver::Clock::now());
   for (std::size_t i = 0; i < open_.size(); ++i) {
     std::size_t bytes = 0;
     const std::size_t before = taken.size();
@@ -49,12 +50,11 @@ std::vector<FedPiece> Sources::take(SimTime now) {
     std::visit(
         Overloaded{[&](const std::unique_ptr<Receiver>& receiver) {
                      while (room()) {
-                       auto arrival = receiver->take();
+                       auto arrival = take(*receiver, open_[i], now);
                        if (!arrival) break;
-                       const auto age = std::chrono::duration_cast<SimTime>(wall - arrival->at);
                        bytes += arrival->piece.bytes.size();
-                       taken.push_back({i, std::clamp(now - age, last_, now), std::move(arrival->piece.bytes),
-                                        arrival->piece.begins, arrival->piece.whole});
+                       taken.push_back({i, std::clamp(clock_.of(arrival->at), last_, now),
+                                        std::move(arrival->piece.bytes), arrival->piece.begins, arrival->piece.whole});
                      }
                    },
                    [&](const std::unique_ptr<LogPlayer>& log) {
@@ -71,6 +71,13 @@ std::vector<FedPiece> Sources::take(SimTime now) {
                    [](const FedPiece& a, const FedPiece& b) { return a.arrival < b.arrival; });
   last_ = now;
   return taken;
+}
+
+/// The next piece that came by `now`.
+std::optional<Receiver::Arrival> Sources::take(Receiver& receiver, Open& open, SimTime now) {
+  if (!open.waiting) open.waiting = receiver.take();
+  if (!open.waiting || clock_.of(open.waiting->at) > now) return std::nullopt;
+  return std::exchange(open.waiting, std::nullopt);
 }
 
 std::string Sources::trouble() const {

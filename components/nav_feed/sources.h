@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "components/nav_feed/arrival_clock.h"
 #include "components/nav_feed/feed_source.h"
 #include "components/nav_feed/log_player.h"
 #include "components/runtime/sim_time.h"
@@ -23,8 +25,8 @@ struct FedPiece {
 };
 
 /// All sources of a feed: the ports and lines that are open, and the logs that are played. What has come since
-/// the event before is taken in the order of its arrival, which in sim time is as long before the event as it was in
-/// fact, but not before the last one.
+/// the event before is taken in the order of its arrival, in sim time (ArrivalClock). What came while an event was late
+/// is of the next one.
 class Sources {
  public:
   /// Throws UserError, with the source's name, where one cannot be opened.
@@ -44,9 +46,13 @@ class Sources {
   struct Open {
     std::string name;
     std::variant<std::unique_ptr<Receiver>, std::unique_ptr<LogPlayer>> from;
+    std::optional<Receiver::Arrival> waiting;      // for its event
     std::uint64_t refused = 0, dropped_bytes = 0;  // counted already
   };
+  std::optional<Receiver::Arrival> take(Receiver& receiver, Open& open, SimTime now);
+
   std::vector<Open> open_;
+  ArrivalClock clock_;
   SimTime last_{0};
 };
 

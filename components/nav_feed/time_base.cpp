@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "components/formats/time_of_day.h"
+
 namespace ensonify {
-namespace {
 
-constexpr double kDay_s = 86400.0;
-
-}  // namespace
+using formats::kDay_s;
 
 void TimeBase::bind(double time_of_day_s, double run_s) {
   *this = {};
@@ -40,7 +39,5 @@ double TimeBase::follow(double time_of_day_s, double arrival_s) {
   last_ahead_s_ = found_s - arrival_s;
   return found_s;
 }
-
-double time_of_day_step_s(double from_s, double to_s) { return std::remainder(to_s - from_s, kDay_s); }
 
 }  // namespace ensonify

@@ -32,7 +32,4 @@ class TimeBase {
   double last_ahead_s_ = 0.0;
 };
 
-/// From one time of day to a later one: -12 h to 12 h.
-double time_of_day_step_s(double from_s, double to_s);
-
 }  // namespace ensonify

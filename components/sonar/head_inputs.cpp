@@ -91,7 +91,7 @@ std::string HeadInputs::obstacle(SimTime now) const {
   if (!body) return "no pose of the vehicle has arrived";
   const frames::Vec3 place = frames::head_pose(*body, mounting_.actual).position_enu_m;
   const double above_water_m = place.z() - tide_.at(seconds(now)).height_m;
-  if (above_water_m > 0.0) return fmt::format("the head is {:.1f} m above the water", above_water_m);
+  if (above_water_m > 0.0) return fmt::format("the head is {:.2f} m above the water", above_water_m);
   if (!tiles_.covers(place.head<2>())) {
     return fmt::format("no seabed tile under the head at ({:.0f}, {:.0f}) m", place.x(), place.y());
   }

@@ -171,8 +171,15 @@ std::optional<PingUnderWay> PingCycle::ready(SimTime now) {
 bool PingCycle::may_transmit(SimTime now) {
   if (!clock_.due(now)) return false;
   const std::string obstacle = inputs_.obstacle(now);
-  if (obstacle.empty()) return true;
+  if (obstacle.empty()) {
+    if (const auto spell = silence_.end()) {
+      log::event(ports_, "pings_again", "after_s={:.3f} passed_over={}", seconds(now - spell->since),
+                 spell->passed_over);
+    }
+    return true;
+  }
   clock_.skipped();
+  if (silence_.pass_over(now, obstacle)) log::event(ports_, "no_ping", "why=\"{}\"", obstacle);
   ports_.count("pings_skipped");
   ports_.health("degraded", obstacle);
   return false;

@@ -9,6 +9,7 @@
 #include "components/sonar/head_config.h"
 #include "components/sonar/head_inputs.h"
 #include "components/sonar/sea_acoustics.h"
+#include "components/sonar/silence.h"
 #include "kernels/acoustics/echo/interference.h"
 #include "messages/sonar.h"
 
@@ -146,7 +147,7 @@ class PingCycle {
  private:
   /// The oldest ping that is ready by now; each is given once.
   std::optional<PingUnderWay> ready(SimTime now);
-  /// Whether to transmit now. A beat at which something stands in the way passes, and health says what it is.
+  /// Whether to transmit now. A beat at which something stands in the way passes, and health and log say what it is.
   bool may_transmit(SimTime now);
   /// Time of the next transmission or of the next ping that is ready.
   SimTime next() const;
@@ -155,6 +156,7 @@ class PingCycle {
   const HeadInputs& inputs_;
   SimTime processing_latency_;
   PingClock clock_;
+  Silence silence_;
   Interference others_;
   std::deque<PingUnderWay> under_way_;
   std::int64_t pings_ = 0;

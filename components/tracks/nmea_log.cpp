@@ -7,13 +7,13 @@
 
 #include "components/errors/overloaded.h"
 #include "components/formats/nmea/navigation.h"
+#include "components/formats/time_of_day.h"
 #include "components/tracks/readers.h"
 #include "scenarios/scenario_file.h"
 
 namespace ensonify::tracks {
 namespace {
 
-constexpr double kDay_s = 86400.0;
 constexpr std::int64_t kSpread_ns = 2'000'000'000;  // between two timed sentences, at most
 
 /// Sentences that have a time count as of it, on across midnight. What has none counts by the stamps in front of the
@@ -60,7 +60,7 @@ class LogReader {
       last_stamp_ns_ = stamp_ns_;
       return last_ns_;
     }
-    const double step_s = std::remainder(time_of_day_s - *day_s_, kDay_s);
+    const double step_s = formats::time_of_day_step_s(*day_s_, time_of_day_s);
     const std::int64_t ns = last_ns_ + std::llround(1e9 * step_s);
     if (step_s > 0.0) {
       spread(ns);

@@ -44,6 +44,13 @@ std::string gga(const std::string& time, const std::string& minutes) {
 
 }  // namespace
 
+TEST_CASE("a leap second of a log is a second of its own") {
+  const Track track = track_in(gga("235959.00", "0001") + gga("235960.00", "0002") + gga("000000.00", "0003") +
+                               gga("000001.00", "0004"));
+  REQUIRE(track.fixes.size() == 4);
+  for (std::size_t i = 1; i < 4; ++i) CHECK(track.fixes[i].ns - track.fixes[i - 1].ns == 1'000'000'000);
+}
+
 TEST_CASE("a table of geodetic places is read by the names of its columns") {
   const Track track = track_in(
       "# a comment\n"

@@ -59,9 +59,10 @@ class ShipSurvey(SystemTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
 
-    def surveyed(self, log, site):
-        """Run and sender of the page, with this log and the site's latitude and longitude; then grid and picture."""
+    def surveyed(self, log, site, *more):
+        """Run and sender of the page, with this log, the site's latitude and longitude and more arguments; then grid and picture."""
         survey = re.sub(r"latitude_deg=\S+ --arg longitude_deg=\S+", "latitude_deg={:.4f} --arg longitude_deg={:.4f}".format(*site), self.survey)
+        survey = " ".join([survey, *more])
         run = subprocess.Popen(self.words(survey), cwd=self.folder, env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.wait_for_go("out/ship")
         sender = subprocess.Popen(self.words(self.send.replace(LOG, str(log))), cwd=self.folder, env=self.environment)
@@ -81,8 +82,8 @@ class ShipSurvey(SystemTest):
             taken = [message for _, _, message in record.messages("boat/fix")]
             pings = [message for _, _, message in record.messages("bow/soundings")]
         at_s = np.array([ping.stamp_ns for ping in pings]) * 1e-9
-        # Where pings came for half a second before and behind: along the genuine log the head once waits 1.7 s from one to the next.
-        taken = [fix for fix in taken if (np.abs(at_s - fix.stamp_ns * 1e-9) < 0.5).sum() >= 9]
+        self.assertLess(np.diff(at_s).max(), 0.5)  # the head never waits: it is under the water all the time
+        taken = [fix for fix in taken if at_s[0] < fix.stamp_ns * 1e-9 < at_s[-1]]
         self.assertGreater(len(taken), 12)
         fixed = np.array([(fix.latitude_deg, fix.longitude_deg) for fix in taken])
         for place in fixed:
@@ -126,7 +127,31 @@ class ShipSurvey(SystemTest):
         report = subprocess.run(self.words(self.doctor.replace(LOG, str(GENUINE))), cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=60)
         self.assertIn(report.returncode, (0, 1), report.stderr)  # 1: the doctor has something to correct
         self.assertRegex(report.stdout, r"(?m)^INGGA +\d+ ")
-        self.surveyed(GENUINE, fixes(GENUINE)[0])
+        (deeper,) = re.findall(r"`(--arg head_down_m=\d+)`", PAGE.read_text())
+        self.surveyed(GENUINE, fixes(GENUINE)[0], deeper)
+
+    @unittest.skipUnless(GENUINE.exists(), f"{GENUINE} is not there: the genuine log that is played")
+    def test_a_head_that_heave_lifts_out_of_the_water_says_so(self):
+        latitude, longitude = fixes(GENUINE)[0]
+        run = self.run_launch(SOURCE / "launch/ship_survey.yaml", "--free", "--quiet", "--arg", f"latitude_deg={latitude}",
+                            "--arg", f"longitude_deg={longitude}", "--arg", "seconds=30", "--set", f"boat.sources={{ ship: {{ file: {GENUINE} }} }}")
+        self.assertEqual(run.code, 0, run.stderr)
+        with ensonify.Record(run.out / "ship.mcap") as record:
+            at_s = [message.stamp_ns * 1e-9 for _, _, message in record.messages("bow/soundings")]
+            health = [message for _, _, message in record.messages("bow/health")]
+        steps_s = np.diff(at_s)
+        self.assertEqual((steps_s > 0.5).sum(), 1)
+        begins_s, lasts_s = at_s[int(steps_s.argmax())], steps_s.max()
+        log = run.log("bow")
+        (begun,) = [float(t) for t, above in re.findall(r"t=(\S+) bow no_ping why=\"the head is (\S+) m above the water\"", log)]
+        (ended,) = [(float(t), float(after)) for t, after in re.findall(r"t=(\S+) bow pings_again after_s=(\S+) ", log)][1:]  # the first: she is there
+        self.assertAlmostEqual(begun, begins_s + 0.1, delta=0.02)
+        self.assertAlmostEqual(ended[0], begins_s + lasts_s, delta=0.02)
+        while_it_lasts = [one for one in health if begun - 0.01 < one.stamp_ns * 1e-9 < ended[0] - 0.01]
+        self.assertTrue(while_it_lasts)
+        for one in while_it_lasts:
+            self.assertEqual(one.state, "degraded")
+            self.assertRegex(one.message, r"^the head is 0\.[01]\d m above the water$")
 
 
 if __name__ == "__main__":

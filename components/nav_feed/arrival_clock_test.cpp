@@ -1,0 +1,50 @@
+#include "components/nav_feed/arrival_clock.h"
+
+#include <catch2/catch.hpp>
+
+#include "kernels/base/random/stream.h"
+
+using namespace ensonify;
+
+namespace {
+
+/// Wall time, of a clock that began long before the run.
+ArrivalClock::Wall wall(SimTime since_start) { return ArrivalClock::Wall{std::chrono::hours(99) + since_start}; }
+
+}  // namespace
+
+TEST_CASE("late events do not move arrivals") {
+  const random::Stream chance(5, "arrival_clock_test");
+  ArrivalClock clock;
+  for (int i = 0; i < 1000; ++i) {
+    const SimTime now = i * 10_ms;
+    const SimTime late = from_seconds(i % 7 == 0 ? 0.0 : 0.02 * chance.uniform(static_cast<std::uint64_t>(i)));
+    clock.event(now, wall(now + late));
+    const SimTime off = clock.of(wall(now - 3_ms)) - (now - 3_ms);
+    REQUIRE(off <= SimTime{0});
+    REQUIRE(off > -SimTime{10'000});  // of the drift that is allowed for, over seven events
+  }
+}
+
+TEST_CASE("behind a pause, and below rate 1, an arrival is as long before its event as it was in fact") {
+  ArrivalClock clock;
+  clock.event(1_s, wall(1_s));
+  clock.event(1_s + 10_ms, wall(4_s));  // it was stopped for 3 s
+  CHECK(clock.of(wall(4_s - 2_ms)) == 1_s + 8_ms);
+  for (int i = 2; i < 200; ++i) {  // at half the rate
+    const SimTime now = 1_s + i * 10_ms, at = 4_s + 2 * i * 10_ms;
+    clock.event(now, wall(at));
+    const SimTime off = clock.of(wall(at - 2_ms)) - (now - 2_ms);
+    REQUIRE(off >= SimTime{0});
+    REQUIRE(off <= ArrivalClock::kMostLate);
+  }
+}
+
+TEST_CASE("clocks that drift apart are followed") {
+  ArrivalClock clock;
+  for (int i = 0; i < 100'000; ++i) {
+    const SimTime now = i * 10_ms, at = now + now / 20'000;  // wall time runs ahead
+    clock.event(now, wall(at));
+    REQUIRE(std::chrono::abs(clock.of(wall(at)) - now) < SimTime{1'000'000});
+  }
+}
