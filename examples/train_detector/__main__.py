@@ -4,6 +4,7 @@
     python examples/train_detector test out/detector                 # on generated scenes of other places
     python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
     python examples/train_detector worth --generated out/detector --real REAL_FOLDER -o out/worth     # how many real pictures train as well
+    python examples/train_detector cut out/set -o out/cut_outs       # a picture of each generated thing, in a folder of its class
 """
 import argparse
 import pickle
@@ -14,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
+import cut_outs
 import judging
 import labelled
 import scenes
@@ -88,6 +90,12 @@ def value(given: argparse.Namespace) -> int:
     return 0
 
 
+def cut(given: argparse.Namespace) -> int:
+    masters = [master for split in ("train", "val", "test") for master in scenes.generated.masters(worth.sets_in(given.generated), split)]
+    print(f"{cut_outs.write(cut_outs.CutOuts(masters), given.out, given.seed)} cut-outs of {len(masters)} pictures in {given.out}")
+    return 0
+
+
 def renamed(pairs: list) -> dict:
     wrong = [pair for pair in pairs if "=" not in pair]
     if wrong:
@@ -119,11 +127,15 @@ def arguments() -> argparse.ArgumentParser:
     of.add_argument("--real", type=Path, required=True, help="labelled pictures, in any form that `test` reads")
     of.add_argument("--groups", type=Path, help="CSV of file, group; default: the real folder's own, or what looks alike")
     of.add_argument("-o", "--out", type=Path, required=True, help="folder of the nets, which go on where they were interrupted, and worth.json")
-    of.add_argument("--steps", type=int, default=600, help="of each training")
+    of.add_argument("--steps", type=int, default=600, help="of each training; of cut-outs with a class alone 200 do")
     of.add_argument("--size", type=int, default=training.SIZE, choices=(64, 128, 256), help="sides of training pictures in pixels")
     of.add_argument("--seed", type=int, default=1)
     of.add_argument("--jobs", type=int, default=2)
     choose_classes(of)
+    of = verbs.add_parser("cut", help="write a cut-out of each thing of a generated set")
+    of.add_argument("generated", type=Path, help="set of `ensonify dataset`, or folder that `make` wrote")
+    of.add_argument("-o", "--out", type=Path, required=True, help="folder for a folder of each class, and groups.csv: a group is a scene")
+    of.add_argument("--seed", type=int, default=1, help="of displays")
     return parser
 
 
@@ -139,7 +151,7 @@ def main() -> int:
     if given.verb == "make" and given.pictures is None:
         given.pictures = {"imaging": 2400, "sidescan": 120}[given.kind]
     try:
-        return {"make": make, "test": test, "worth": value}[given.verb](given)
+        return {"make": make, "test": test, "worth": value, "cut": cut}[given.verb](given)
     except (labelled.Unreadable, scenes.Failed) as error:
         print(f"train_detector: {error}", file=sys.stderr)
         return 2

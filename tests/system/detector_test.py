@@ -266,11 +266,36 @@ class Training(unittest.TestCase):
             for of in result["scores"].values():
                 self.assertTrue(0 <= of["interval"][0] <= of["value"] <= of["interval"][1] <= 1, of)
             self.assertIn(result["worth"], ("< 10", "> 10", "10"))
+            at = {file: file.stat().st_mtime_ns for file in Path(folder, "out").glob("*.pt")}
+            self.assertEqual(len(at), 7)
+            again = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "25", "--size", "64")
+            self.assertEqual((again.returncode, again.stdout), (0, done.stdout), again.stderr)
+            self.assertEqual({file: file.stat().st_mtime_ns for file in at}, at)  # not trained again
             for wrong, said in ((("--real", f"{folder}/out"), "no labelled pictures"), (("--groups", f"{folder}/none.csv"), "none.csv"),
-                                (("--generated", f"{folder}/real"), "no generated set")):
+                                (("--generated", f"{folder}/real"), "no generated set"), (("--size", "64", "--steps", "26"), "nets of other")):
                 done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", *wrong)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(said, done.stderr)
+
+    def test_cut_outs_teach_their_classes(self):
+        """Discs and bars of another set, cut out and drawn by other displays, are told apart; a scene is a group."""
+        import cut_outs
+        import generated
+        import labelled
+        import whole
+        with tempfile.TemporaryDirectory() as folder:
+            for of, seed in (("a", 1), ("b", 2)):
+                painted(Path(folder, of, "set/train"), np.random.default_rng(seed))
+            done = run("cut", f"{folder}/b", "-o", f"{folder}/cut")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pictures = labelled.read(Path(folder, "cut"))
+            self.assertTrue(all(picture.group.startswith("b_") for picture in pictures))
+            mine = cut_outs.CutOuts(generated.masters([Path(folder, "a")], "train"))
+            self.assertEqual(mine.limited(6).count(), 6)
+            net = whole.train([mine], ["bar", "disc"], Path(folder, "net.pt"), 40, 64, seed=1)
+            said = whole.said(net, pictures, 64, [0, 1])
+            right = np.mean([["bar", "disc"][of] == picture.things[0].name for of, picture in zip(said, pictures)])
+            self.assertGreater(right, 0.85)
 
     def test_one_command_makes_and_one_tests(self):
         """Too few steps to find anything; a training goes on where it was cut off."""
