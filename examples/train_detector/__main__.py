@@ -4,6 +4,7 @@
     python examples/train_detector test out/detector                 # on generated scenes of other places
     python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
     python examples/train_detector worth --generated out/detector --real REAL_FOLDER -o out/worth     # how many real pictures train as well
+    python examples/train_detector realism REAL out/set              # speckle and texture of a real XTF file or folder, and of a generated one
     python examples/train_detector cut out/set -o out/cut_outs       # a picture of each generated thing, in a folder of its class
 """
 import argparse
@@ -18,6 +19,7 @@ import torch
 import cut_outs
 import judging
 import labelled
+import realism
 import scenes
 import training
 import worth
@@ -96,6 +98,14 @@ def cut(given: argparse.Namespace) -> int:
     return 0
 
 
+def held_together(given: argparse.Namespace) -> int:
+    result = realism.compare(given.one, given.other)
+    print(realism.as_text(result))
+    if given.json is not None:
+        given.json.write_text(judging.as_json(result))
+    return 0
+
+
 def renamed(pairs: list) -> dict:
     wrong = [pair for pair in pairs if "=" not in pair]
     if wrong:
@@ -136,6 +146,10 @@ def arguments() -> argparse.ArgumentParser:
     of.add_argument("generated", type=Path, help="set of `ensonify dataset`, or folder that `make` wrote")
     of.add_argument("-o", "--out", type=Path, required=True, help="folder for a folder of each class, and groups.csv: a group is a scene")
     of.add_argument("--seed", type=int, default=1, help="of displays")
+    of = verbs.add_parser("realism", help="compare speckle and texture of real and generated pictures")
+    of.add_argument("one", type=Path, help="XTF file, set of `ensonify dataset`, or folder of pictures")
+    of.add_argument("other", type=Path, help="another one")
+    of.add_argument("--json", type=Path, help="numbers as JSON")
     return parser
 
 
@@ -151,7 +165,7 @@ def main() -> int:
     if given.verb == "make" and given.pictures is None:
         given.pictures = {"imaging": 2400, "sidescan": 120}[given.kind]
     try:
-        return {"make": make, "test": test, "worth": value, "cut": cut}[given.verb](given)
+        return {"make": make, "test": test, "worth": value, "cut": cut, "realism": held_together}[given.verb](given)
     except (labelled.Unreadable, scenes.Failed) as error:
         print(f"train_detector: {error}", file=sys.stderr)
         return 2

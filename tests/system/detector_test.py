@@ -218,6 +218,59 @@ class Readers(unittest.TestCase):
 
 
 @unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
+class Realism(unittest.TestCase):
+    """Statistics against their closed forms."""
+
+    def k_distributed(self, shape: float) -> np.ndarray:
+        random = np.random.default_rng(5)
+        return random.gamma(shape, 1 / shape, 400_000) * random.exponential(1, 400_000)
+
+    def test_shape_of_k_distributed_intensity_is_found(self):
+        import realism
+        for shape in (0.5, 2.0, 8.0):
+            for found in (realism.inverse_shape_by_moments, realism.inverse_shape_by_logs):
+                self.assertAlmostEqual(found(self.k_distributed(shape)) * shape, 1, delta=0.06)
+        rayleigh = np.random.default_rng(6).exponential(1, 400_000)
+        self.assertAlmostEqual(realism.inverse_shape_by_moments(rayleigh), 0, delta=0.01)
+        self.assertLess(realism.inverse_shape_by_logs(rayleigh), 0.01)
+        self.assertEqual(realism.inverse_shape_by_logs(rayleigh ** 0.5), 0)  # less varied than speckle
+        self.assertAlmostEqual(realism.contrast(np.sqrt(rayleigh)), 0.5227, delta=0.002)
+
+    def test_texture_of_a_checkerboard_stripes_and_noise(self):
+        import realism
+        board = np.indices((32, 32)).sum(0) % 2
+        self.assertEqual(realism.texture(realism.cooccurrence(board, (0, 1), 2)), {"contrast": 1, "correlation": -1, "energy": 0.5, "entropy": 1})
+        self.assertEqual(realism.texture(realism.cooccurrence(board, (1, 1), 2))["correlation"], 1)
+        stripes = np.indices((32, 32))[0] % 2
+        self.assertEqual([realism.texture(realism.cooccurrence(stripes, step, 2))["correlation"] for step in ((1, 0), (0, 1))], [-1, 1])
+        noise = np.random.default_rng(7).normal(size=(700, 700))
+        level = realism.by_rank(noise)
+        self.assertTrue((np.bincount(level.ravel()) - 700 * 700 / 8 < 2).all())
+        found = realism.texture(realism.cooccurrence(level, (0, 1)))
+        for name, of in (("contrast", 2 * (8 ** 2 - 1) / 12), ("correlation", 0), ("energy", 1 / 64), ("entropy", 6)):
+            self.assertAlmostEqual(found[name], of, delta=0.05)
+        self.assertTrue((realism.by_rank(np.exp(3 * noise)) == level).all())  # a display's curve changes nothing
+
+    def test_two_folders_are_compared_and_interval_holds_the_value(self):
+        with tempfile.TemporaryDirectory() as folder:
+            painted(Path(folder, "a/set/train"), np.random.default_rng(1))
+            painted(Path(folder, "b/set/train"), np.random.default_rng(2))
+            classes_of_cut_outs(Path(folder, "grey"), np.random.default_rng(3), 5)
+            done = run("realism", f"{folder}/a", f"{folder}/b", "--json", f"{folder}/of.json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for of in json.loads(Path(folder, "of.json").read_text())["numbers"]:
+                low, high = of["speckle contrast"]["interval"]
+                self.assertTrue(low <= of["speckle contrast"]["value"] <= high)
+                self.assertAlmostEqual(of["speckle contrast"]["value"], 0.5227, delta=0.1)  # Rayleigh, but for the things
+            done = run("realism", f"{folder}/a", f"{folder}/grey")
+            self.assertEqual((done.returncode, "neither speckle" in done.stdout, "speckle contrast" in done.stdout), (0, True, False), done.stderr)
+            (Path(folder) / "x.xtf").write_bytes(b"no sonar")
+            for wrong, said in (("none", "allowed is an XTF file"), ("x.xtf", "x.xtf")):
+                done = run("realism", f"{folder}/{wrong}", f"{folder}/a")
+                self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
+
+
+@unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
 class Worth(unittest.TestCase):
     def test_curve_is_linear_in_log_k(self):
         import worth
