@@ -135,6 +135,10 @@ def digest(files: list) -> str:
     return hashlib.sha256("\n".join(f"{file.name} {file.stat().st_size}" for file in files).encode()).hexdigest()[:16]
 
 
+def of_masters(masters: list) -> str:
+    return digest([master.folder / "amplitude" / f"{master.name}.png" for master in masters])
+
+
 def sets_in(folder: Path) -> list:
     """Sets of `ensonify dataset`: the folder itself, or those in it."""
     found = [at for at in (folder, *sorted(folder.iterdir())) if (at / "set/train/facts").is_dir()] if folder.is_dir() else []
@@ -157,8 +161,7 @@ def measure(generated_folder: Path, real: list, folder: Path, steps: int, size: 
                    | {thing.name for picture in real for thing in picture.things if not thing.ignored})
     is_held = np.isin(group, order[:held])
     test = Held([picture for picture, out in zip(real, is_held) if out], group[is_held], names)
-    keep(folder, steps=steps, size=size, seed=seed, generated=digest([master.folder / "amplitude" / f"{master.name}.png" for master in masters]),
-         real=digest([picture.file for picture in real]))
+    keep(folder, steps=steps, size=size, seed=seed, generated=of_masters(masters), real=digest([picture.file for picture in real]))
     make = (Wholes if test.kind == "balanced accuracy" else Detectors)(names, masters, folder, steps, size, seed, jobs)
     say(f"{len(real)} real pictures of {len(order)} groups, {len(test.pictures)} held out; {len(masters)} generated; score {test.kind}", flush=True)
     answers: dict = {"generated": [make.answer(test, "generated", True, [])]}

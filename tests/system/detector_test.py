@@ -350,6 +350,41 @@ class Training(unittest.TestCase):
             right = np.mean([["bar", "disc"][of] == picture.things[0].name for of, picture in zip(said, pictures)])
             self.assertGreater(right, 0.85)
 
+    def test_curve_takes_so_many_cut_outs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            painted(Path(folder, "set/train"), np.random.default_rng(1))
+            classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 8)
+            words = ("curve", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--counts", "4", "12", "999", "--seeds", "2", "--steps", "20")
+            done = run(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(Path(folder, "out/curve.json").read_text())
+            self.assertEqual({name: of["cut_outs"] for name, of in result.items()}, {"4": 4, "12": 12})  # 999 there are not
+            self.assertEqual(len(list(Path(folder, "out").glob("*.pt"))), 4)
+            done = run(*words[:-1], "21")
+            self.assertEqual((done.returncode, "nets of other" in done.stderr), (2, True), done.stderr)
+
+    def test_each_effect_is_off_alone(self):
+        """Variants are the same scenes. Too few steps to learn anything."""
+        import curve
+        import generated
+        with tempfile.TemporaryDirectory() as folder:
+            classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 8)
+            done = run("effects", str(HERE / "recipes/hung_750khz.yaml"), "-n", "1", "--count", "10", "--seeds", "1", "--steps", "2", "--real", f"{folder}/real", "-o",
+                       f"{folder}/out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(Path(folder, "out/effects.json").read_text())
+            self.assertEqual(set(result), set(curve.EFFECTS))
+            self.assertEqual({name for name, of in result.items() if "difference" not in of}, {curve.AS_IT_IS})
+            sets = {name: generated.masters([Path(folder, "out", name.replace(" ", "_"))], "train") for name in curve.EFFECTS}
+            first, owner = sets[curve.AS_IT_IS][0].read()
+            for name in curve.EFFECTS:
+                amplitude, other = sets[name][0].read()
+                self.assertTrue((other == owner).all(), name)
+                self.assertEqual((amplitude == first).all(), name == curve.AS_IT_IS, name)
+            plain = sets[curve.TEXTURE][0]
+            textured = curve.Textured(plain.folder, plain.name, plain.facts).read()[0].astype(float)
+            self.assertAlmostEqual((textured ** 2).sum() / (plain.read()[0].astype(float) ** 2).sum(), 1, delta=0.1)
+
     def test_one_command_makes_and_one_tests(self):
         """Too few steps to find anything; a training goes on where it was cut off."""
         with tempfile.TemporaryDirectory() as folder:
