@@ -75,9 +75,9 @@ def batch(sources: list, names: list, size: int, random: np.random.Generator) ->
     return seen(torch.from_numpy(np.stack(pictures))), torch.tensor(kinds)
 
 
-def train(sources: list, names: list, file: Path, steps: int, size: int, seed: int, jobs: int = 1) -> Whole:
+def train(sources: list, names: list, file: Path, steps: int, size: int, seed: int, jobs: int = 2) -> Whole:
     """A net after so many steps. `file` keeps it: what is there already is not trained again."""
-    torch.set_num_threads(jobs)
+    torch.set_num_threads(max(1, jobs - 1))  # one processor is left to whoever else works
     torch.manual_seed(seed)
     net = Whole(len(names))
     if file.is_file():

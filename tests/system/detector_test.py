@@ -310,7 +310,7 @@ class Training(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             painted(Path(folder, "set/train"), np.random.default_rng(1))
             classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 12)
-            done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "25", "--size", "64", "--jobs", "2")
+            done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "8", "--size", "64", "--jobs", "2")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             result = json.loads(Path(folder, "out/worth.json").read_text())
             self.assertEqual((result["score"], result["classes"], result["held_out"]), ("balanced accuracy", ["bar", "disc"], 10))
@@ -321,11 +321,11 @@ class Training(unittest.TestCase):
             self.assertIn(result["worth"], ("< 10", "> 10", "10"))
             at = {file: file.stat().st_mtime_ns for file in Path(folder, "out").glob("*.pt")}
             self.assertEqual(len(at), 7)
-            again = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "25", "--size", "64")
+            again = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "8", "--size", "64")
             self.assertEqual((again.returncode, again.stdout), (0, done.stdout), again.stderr)
             self.assertEqual({file: file.stat().st_mtime_ns for file in at}, at)  # not trained again
             for wrong, said in ((("--real", f"{folder}/out"), "no labelled pictures"), (("--groups", f"{folder}/none.csv"), "none.csv"),
-                                (("--generated", f"{folder}/real"), "no generated set"), (("--size", "64", "--steps", "26"), "nets of other")):
+                                (("--generated", f"{folder}/real"), "no generated set"), (("--size", "64", "--steps", "9"), "nets of other")):
                 done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", *wrong)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(said, done.stderr)
@@ -354,13 +354,13 @@ class Training(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             painted(Path(folder, "set/train"), np.random.default_rng(1))
             classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 8)
-            words = ("curve", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--counts", "4", "12", "999", "--seeds", "2", "--steps", "20")
+            words = ("curve", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--counts", "4", "12", "999", "--seeds", "2", "--steps", "2")
             done = run(*words)
             self.assertEqual(done.returncode, 0, done.stderr)
             result = json.loads(Path(folder, "out/curve.json").read_text())
             self.assertEqual({name: of["cut_outs"] for name, of in result.items()}, {"4": 4, "12": 12})  # 999 there are not
             self.assertEqual(len(list(Path(folder, "out").glob("*.pt"))), 4)
-            done = run(*words[:-1], "21")
+            done = run(*words[:-1], "3")
             self.assertEqual((done.returncode, "nets of other" in done.stderr), (2, True), done.stderr)
 
     def test_each_effect_is_off_alone(self):
