@@ -81,18 +81,15 @@ def by_count(folder: Path, counts: list, real: list, out: Path, **settings) -> d
 
 def by_effect(recipe: Path, pictures: int, count: int, real: list, out: Path, jobs: int, **settings) -> dict:
     """Scores with the same scenes, each effect switched off alone. The sets stay in `out`."""
-    answers: dict = {}
+    sets = {}
     for name in EFFECTS:
         folder = out / name.replace(" ", "_")
         scenes.generate(variant(recipe, name, out), pictures, folder, jobs)
-        masters = generated.masters([folder], "train")
-        if name == AS_IT_IS:
-            yardstick = Yardstick(real, masters, out, jobs=jobs, **settings)
-            keep(out, steps=yardstick.steps, size=yardstick.size, count=count, generated=of_masters(masters), real=digest([picture.file for picture in real]))
-        if name == TEXTURE:
-            masters = [Textured(master.folder, master.name, master.facts) for master in masters]
-        answers[name] = yardstick.answers(name, cut_outs.CutOuts(masters).limited(count))
-    return yardstick.summary(answers, AS_IT_IS)
+        sets[name] = generated.masters([folder], "train")
+    yardstick = Yardstick(real, sets[AS_IT_IS], out, jobs=jobs, **settings)
+    keep(out, steps=yardstick.steps, size=yardstick.size, count=count, generated=of_masters(sets[AS_IT_IS]), real=digest([picture.file for picture in real]))
+    sets[TEXTURE] = [Textured(master.folder, master.name, master.facts) for master in sets[TEXTURE]]
+    return yardstick.summary({name: yardstick.answers(name, cut_outs.CutOuts(of).limited(count)) for name, of in sets.items()}, AS_IT_IS)
 
 
 def variant(recipe: Path, effect: str, out: Path) -> Path:

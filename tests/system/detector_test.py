@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from support import BIN, SOURCE
+from support import BIN, SHARED, SOURCE
 
 HERE = SOURCE / "examples/train_detector"
 NEEDED = importlib.util.find_spec("torch") is not None
@@ -250,6 +250,14 @@ class Realism(unittest.TestCase):
         for name, of in (("contrast", 2 * (8 ** 2 - 1) / 12), ("correlation", 0), ("energy", 1 / 64), ("entropy", 6)):
             self.assertAlmostEqual(found[name], of, delta=0.05)
         self.assertTrue((realism.by_rank(np.exp(3 * noise)) == level).all())  # a display's curve changes nothing
+
+    @unittest.skipUnless((SHARED / "data/sonar/scotsman-iver2.xtf").is_file(), "there is no real sidescan")
+    def test_windows_of_a_real_sidescan_lie_on_the_seabed(self):
+        """Its water column has 500 counts, its seabed ten thousand; port runs the other way."""
+        import realism
+        of = realism.of_xtf(SHARED / "data/sonar/scotsman-iver2.xtf")
+        self.assertEqual((len(of.groups), len(set(of.groups))), (142, 7))
+        self.assertLess(np.mean([part.mean() < 1000 for part in of.parts]), 0.05)
 
     def test_two_folders_are_compared_and_interval_holds_the_value(self):
         with tempfile.TemporaryDirectory() as folder:
