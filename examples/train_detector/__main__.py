@@ -4,6 +4,10 @@
     python examples/train_detector test out/detector                 # on generated scenes of other places
     python examples/train_detector test out/detector REAL_FOLDER     # on labelled pictures of your own
     python examples/train_detector worth --generated out/detector --real REAL_FOLDER -o out/worth     # how many real pictures train as well
+    python examples/train_detector curve --generated out/set --real REAL_FOLDER -o out/curve        # scores by the number of generated cut-outs
+    python examples/train_detector effects RECIPE --real REAL_FOLDER -o out/effects                 # what each effect of the simulation brings
+    python examples/train_detector realism REAL out/set              # speckle and texture of a real XTF file or folder, and of a generated one
+    python examples/train_detector cut out/set -o out/cut_outs       # a picture of each generated thing, in a folder of its class
 """
 import argparse
 import pickle
@@ -14,8 +18,11 @@ from pathlib import Path
 import numpy as np
 import torch
 
+import curve
+import cut_outs
 import judging
 import labelled
+import realism
 import scenes
 import training
 import worth
@@ -79,12 +86,46 @@ def test(given: argparse.Namespace) -> int:
 
 
 def value(given: argparse.Namespace) -> int:
-    real = labelled.chosen(labelled.read(given.real), renamed(given.rename), given.drop, given.only, given.ignore)
-    if given.groups is not None:
-        labelled.with_groups(given.groups, real)
-    result = worth.measure(given.generated, real, given.out, given.steps, given.size, given.seed, given.jobs)
+    result = worth.measure(given.generated, real_ones(given), given.out, given.steps, given.size, given.seed, given.jobs)
     print(worth.as_text(result))
     (given.out / "worth.json").write_text(judging.as_json(result))
+    return 0
+
+
+def cut(given: argparse.Namespace) -> int:
+    masters = [master for split in ("train", "val", "test") for master in scenes.generated.masters(worth.sets_in(given.generated), split)]
+    print(f"{cut_outs.write(cut_outs.CutOuts(masters), given.out, given.seed)} cut-outs of {len(masters)} pictures in {given.out}")
+    return 0
+
+
+def by_count(given: argparse.Namespace) -> int:
+    return say(curve.by_count(given.generated, given.counts, real_ones(given), given.out, **settings(given)), given.out / "curve.json")
+
+
+def by_effect(given: argparse.Namespace) -> int:
+    return say(curve.by_effect(given.recipe, given.pictures, given.count, real_ones(given), given.out, **settings(given)), given.out / "effects.json")
+
+
+def settings(given: argparse.Namespace) -> dict:
+    return {"steps": given.steps, "size": given.size, "seeds": given.seeds, "jobs": given.jobs}
+
+
+def say(result: dict, file: Path) -> int:
+    print(curve.as_text(result))
+    file.write_text(judging.as_json(result))
+    return 0
+
+
+def real_ones(given: argparse.Namespace) -> list:
+    real = labelled.chosen(labelled.read(given.real), renamed(given.rename), given.drop, given.only, given.ignore)
+    return real if given.groups is None else labelled.with_groups(given.groups, real)
+
+
+def held_together(given: argparse.Namespace) -> int:
+    result = realism.compare(given.one, given.other)
+    print(realism.as_text(result))
+    if given.json is not None:
+        given.json.write_text(judging.as_json(result))
     return 0
 
 
@@ -116,15 +157,38 @@ def arguments() -> argparse.ArgumentParser:
     of.add_argument("--jobs", type=int, default=2)
     of = verbs.add_parser("worth", help="how many groups of real pictures train a net as well as a generated set")
     of.add_argument("--generated", type=Path, required=True, help="set of `ensonify dataset`, or folder that `make` wrote")
+    choose_real(of, steps=600, size=training.SIZE)
+    of.add_argument("--seed", type=int, default=1)
+    of = verbs.add_parser("curve", help="scores on real cut-outs by the number of generated ones")
+    of.add_argument("--generated", type=Path, required=True, help="set of `ensonify dataset`")
+    of.add_argument("--counts", type=int, nargs="+", default=[300, 1000, 3000], help="numbers of cut-outs; those that there are not are left out")
+    of.add_argument("--seeds", type=int, default=3, help="number of nets for each")
+    choose_real(of, steps=200, size=64)
+    of = verbs.add_parser("effects", help="scores on real cut-outs with each effect of the simulation switched off")
+    of.add_argument("recipe", type=Path, help="recipe of `ensonify dataset`")
+    of.add_argument("-n", dest="pictures", type=int, default=190, help="number of pictures of each variant")
+    of.add_argument("--count", type=int, default=1000, help="number of cut-outs that are trained on")
+    of.add_argument("--seeds", type=int, default=3, help="number of nets for each")
+    choose_real(of, steps=200, size=64)
+    of = verbs.add_parser("cut", help="write a cut-out of each thing of a generated set")
+    of.add_argument("generated", type=Path, help="set of `ensonify dataset`, or folder that `make` wrote")
+    of.add_argument("-o", "--out", type=Path, required=True, help="folder for a folder of each class, and groups.csv: a group is a scene")
+    of.add_argument("--seed", type=int, default=1, help="of displays")
+    of = verbs.add_parser("realism", help="compare speckle and texture of real and generated pictures")
+    of.add_argument("one", type=Path, help="XTF file, set of `ensonify dataset`, or folder of pictures")
+    of.add_argument("other", type=Path, help="another one")
+    of.add_argument("--json", type=Path, help="numbers as JSON")
+    return parser
+
+
+def choose_real(of: argparse.ArgumentParser, steps: int, size: int) -> None:
     of.add_argument("--real", type=Path, required=True, help="labelled pictures, in any form that `test` reads")
     of.add_argument("--groups", type=Path, help="CSV of file, group; default: the real folder's own, or what looks alike")
-    of.add_argument("-o", "--out", type=Path, required=True, help="folder of the nets, which go on where they were interrupted, and worth.json")
-    of.add_argument("--steps", type=int, default=600, help="of each training")
-    of.add_argument("--size", type=int, default=training.SIZE, choices=(64, 128, 256), help="sides of training pictures in pixels")
-    of.add_argument("--seed", type=int, default=1)
+    of.add_argument("-o", "--out", type=Path, required=True, help="folder of the nets, which stay, and of the scores as JSON")
+    of.add_argument("--steps", type=int, default=steps, help="of each training; of cut-outs with a class alone 200 do")
+    of.add_argument("--size", type=int, default=size, choices=(64, 128, 256), help="sides of training pictures in pixels")
     of.add_argument("--jobs", type=int, default=2)
     choose_classes(of)
-    return parser
 
 
 def choose_classes(of: argparse.ArgumentParser) -> None:
@@ -139,7 +203,7 @@ def main() -> int:
     if given.verb == "make" and given.pictures is None:
         given.pictures = {"imaging": 2400, "sidescan": 120}[given.kind]
     try:
-        return {"make": make, "test": test, "worth": value}[given.verb](given)
+        return {"make": make, "test": test, "worth": value, "cut": cut, "realism": held_together, "curve": by_count, "effects": by_effect}[given.verb](given)
     except (labelled.Unreadable, scenes.Failed) as error:
         print(f"train_detector: {error}", file=sys.stderr)
         return 2

@@ -81,7 +81,7 @@ class Examples:
 
     def _where(self, master: Master, amplitude: np.ndarray, owner: np.ndarray) -> np.ndarray:
         """Row and column of the master (size x size x 2) that each pixel shows; beyond it -1."""
-        form = _form(master.facts, owner.shape, self.random)
+        form = form_of(master.facts, owner.shape, self.random)
         if owner.any() and self.random.random() < CUT_OUTS:
             middle, side = self._cut_out(form, owner)
         else:
@@ -120,7 +120,7 @@ class Examples:
             pixels = int(mask.sum())
             if pixels == 0:
                 continue
-            if pixels < LEAST_PIXELS or not _stands_out(amplitude, mask):
+            if pixels < LEAST_PIXELS or not stands_out(amplitude, mask):
                 of_place[mask] = -1
                 continue
             rows, columns = np.nonzero(mask)
@@ -130,7 +130,7 @@ class Examples:
         return Example(displayed(amplitude, self.random), np.array(boxes, np.float32).reshape(-1, 4), np.array(kinds, np.int64), of_place)
 
 
-def _stands_out(amplitude: np.ndarray, mask: np.ndarray) -> bool:
+def stands_out(amplitude: np.ndarray, mask: np.ndarray) -> bool:
     """Whether the mean level within, or its mean square, differs from that of the box around it, twice as wide."""
     rows, columns = np.nonzero(mask)
     margin = max(4, (np.ptp(rows) + np.ptp(columns)) // 4)
@@ -177,7 +177,7 @@ class Fan:
         return self.extent[0] - range_ * np.cos(angle), 0.5 * self.extent[1] + range_ * np.sin(angle)
 
 
-def _form(facts: dict, shape: tuple, random: np.random.Generator):
+def form_of(facts: dict, shape: tuple, random: np.random.Generator):
     if facts["kind"] == "sidescan":
         across_m = 0.5 * facts["sound_speed_mps"] * facts["sample_period_s"]
         return Flat(shape, facts["line_spacing_m"] / across_m * np.exp(random.normal(0, 0.35)))

@@ -20,10 +20,9 @@ class Taken:
             self.held[place] = self.pictures[place].grey()
         grey, things = self.held[place], self.pictures[place].things
         rows, columns = grey.shape
-        whole = any(thing.box is None for thing in things) or not things  # of a class, or empty
-        side = max(rows, columns) * (self.random.uniform(0.9, 1.1) if whole else self.random.uniform(0.5, 1.1))
+        side = max(rows, columns) * self.random.uniform(0.5, 1.1) if things else max(rows, columns) * self.random.uniform(0.9, 1.1)
         middle = np.array([columns, rows]) / 2
-        if not whole:
+        if things:
             box = things[int(self.random.integers(len(things)))].box
             middle = (box[:2] + box[2:]) / 2 + self.random.uniform(-0.3, 0.3, 2) * side
             middle = np.clip(middle, np.minimum(side / 2, middle.clip(0)), np.maximum(np.array([columns, rows]) - side / 2, 0.5 * np.array([columns, rows])))
@@ -33,8 +32,7 @@ class Taken:
         level = np.asarray(shown, np.float32) / 255
         boxes, kinds, owner = [], [], np.zeros((self.size, self.size), np.int16)
         for thing in things:
-            box = np.array([0, 0, columns, rows], float) if thing.box is None else thing.box
-            edges = (box - np.tile(corner, 2)) * self.size / side
+            edges = (thing.box - np.tile(corner, 2)) * self.size / side
             inside = edges.clip(0, self.size)
             share = np.prod(inside[2:] - inside[:2]) / max(np.prod(edges[2:] - edges[:2]), 1e-9)
             part = np.s_[int(inside[1]):int(np.ceil(inside[3])), int(inside[0]):int(np.ceil(inside[2]))]

@@ -18,18 +18,23 @@ class Failed(Exception):
 
 def make(kind: str, pictures: int, folder: Path, jobs: int, say=print) -> list:
     """Sets of all recipes of a kind, together so many pictures; made already, they stay. Gives their folders."""
-    program = shutil.which("ensonify")
-    if program is None:
-        raise Failed("ensonify is not on PATH; allowed is build/*/bin of a build, or an installed one")
     sets = []
     for name in RECIPES[kind]:
         sets.append(folder / name)
         count = -(-pictures // len(RECIPES[kind]))
         say(f"{name}: {count} pictures")
-        command = [program, "dataset", str(HERE / "recipes" / f"{name}.yaml"), "-n", str(count), "-o", str(sets[-1]), "--jobs", str(jobs)]
-        if subprocess.run(command).returncode != 0:
-            raise Failed(f"{' '.join(command)}: did not end well")
+        generate(HERE / "recipes" / f"{name}.yaml", count, sets[-1], jobs)
     return sets
+
+
+def generate(recipe: Path, pictures: int, folder: Path, jobs: int) -> None:
+    """A set of `ensonify dataset`; made already, it stays."""
+    program = shutil.which("ensonify")
+    if program is None:
+        raise Failed("ensonify is not on PATH; allowed is build/*/bin of a build, or an installed one")
+    command = [program, "dataset", str(recipe), "-n", str(pictures), "-o", str(folder), "--jobs", str(jobs)]
+    if subprocess.run(command).returncode != 0:
+        raise Failed(f"{' '.join(command)}: did not end well")
 
 
 def classes(sets: list) -> list:

@@ -2,18 +2,22 @@
 
 Of the real groups two of five are held out. The same net, from the same weights and over as many steps, is trained on k of the others, on the
 generated set alone, and on it and k of them. Worth is the k at which the curve of real pictures (the median of draws, made monotone, linear
-in log k) reaches what the generated set reaches alone.
+in log k) reaches what the generated set reaches alone. Of pictures with a class alone the net is one for whole cut-outs.
 """
+import hashlib
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+import cut_outs
 import generated
 import judging
 import labelled
 import scores
 import training
+import whole
 from detector import Detector
 from groups import groups_of
 from real import Both, Taken
@@ -28,9 +32,9 @@ SURE = 0.3  # least score of a find whose mask counts
 class Answer:
     """What a net made of the held-out pictures."""
 
-    judged: list  # of scores.Judged, with boxes
-    mask_iou: list  # for each picture a list
-    said: np.ndarray  # class of each picture, of those asked for; -1: nothing found
+    judged: list | None = None  # of scores.Judged, with boxes
+    mask_iou: list | None = None  # for each picture a list
+    said: np.ndarray | None = None  # class of each picture, of those asked for
 
 
 class Held:
@@ -47,16 +51,16 @@ class Held:
         self.asked = sorted({names.index(thing.name) for thing in things if thing.name in names})
         self.truth = np.array([next((names.index(thing.name) for thing in picture.things if thing.name in names), -2) for picture in pictures])
 
-    def answer(self, detector: Detector) -> Answer:
-        of, masks, said = [], [], []
+    def found(self, detector: Detector) -> Answer:
+        of, masks = [], []
         for picture in self.pictures:
             grey = picture.grey()
-            found = detector.find(grey, least_score=1e-4 if self.kind == "balanced accuracy" else 0.02)
             masks.append([])
-            of.append(judging.judged(picture, found, self.names, grey.shape, masks[-1], SURE))
-            best = (found.scores[:, None] * found.kinds[:, self.asked]).max(0) if len(found.scores) else np.zeros(0)
-            said.append(self.asked[int(best.argmax())] if len(best) else -1)
-        return Answer(of, masks, np.array(said))
+            of.append(judging.judged(picture, detector.find(grey), self.names, grey.shape, masks[-1], SURE))
+        return Answer(judged=of, mask_iou=masks)
+
+    def said(self, net: whole.Whole, size: int) -> Answer:
+        return Answer(said=whole.said(net, self.pictures, size, self.asked))
 
     def score(self, answer: Answer, which: np.ndarray) -> float:
         if self.kind == "mask IoU":
@@ -88,17 +92,51 @@ def as_word(k: float, counts: list) -> str:
     return f"< {min(counts)}" if k == 0 else f"> {max(counts)}" if np.isinf(k) else f"{k:.0f}"
 
 
-class Trainer:
-    """Nets that differ by their pictures alone. What was trained stays in `folder`."""
+class Detectors:
+    """Detectors that differ by their pictures alone. What was trained stays in `folder`."""
 
-    def __init__(self, names: list, folder: Path, steps: int, size: int, seed: int, jobs: int):
-        self.names, self.folder, self.steps, self.size, self.seed, self.jobs = names, folder, steps, size, seed, jobs
-        folder.mkdir(parents=True, exist_ok=True)
+    def __init__(self, names: list, masters: list, folder: Path, steps: int, size: int, seed: int, jobs: int):
+        self.names, self.masters, self.folder, self.steps, self.size, self.seed, self.jobs = names, masters, folder, steps, size, seed, jobs
 
-    def net_of(self, name: str, examples) -> Detector:
-        batches = training.Batches(examples, self.seed, self.size)
+    def answer(self, test: Held, name: str, with_generated: bool, pictures: list) -> Answer:
+        """Of a detector that is trained on generated pictures, on these real ones, or on both."""
+        of = [generated.Examples(self.masters, self.names, self.size, np.random.default_rng(self.seed))] if with_generated else []
+        of += [Taken(pictures, self.names)] if pictures else []
+        batches = training.Batches(of[0] if len(of) == 1 else Both(*of), self.seed, self.size)
         net = training.train(batches, self.names, self.folder / f"{name}.pt", self.steps, self.seed, self.jobs, say=lambda *_, **__: None)
-        return Detector(net, self.names, SURE, {})
+        return test.found(Detector(net, self.names, SURE, {}))
+
+
+class Wholes:
+    """The same of nets that say the class of a whole cut-out."""
+
+    def __init__(self, names: list, masters: list, folder: Path, steps: int, size: int, seed: int, jobs: int):
+        self.names, self.folder, self.steps, self.size, self.seed, self.jobs = names, folder, steps, size, seed, jobs
+        self.generated = cut_outs.CutOuts(masters)
+        if not self.generated.of_class:
+            raise labelled.Unreadable("no thing of the generated set can be seen; allowed is a set of more pictures")
+
+    def answer(self, test: Held, name: str, with_generated: bool, pictures: list) -> Answer:
+        sources = ([self.generated] if with_generated else []) + ([whole.Real(pictures)] if pictures else [])
+        return test.said(whole.train(sources, self.names, self.folder / f"{name}.pt", self.steps, self.size, self.seed, self.jobs), self.size)
+
+
+def keep(folder: Path, **of) -> None:
+    """Nets of a folder are of one set of pictures and settings. Raises Unreadable where others are there."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file, now = folder / "of.json", json.dumps(of)
+    if file.is_file() and file.read_text() != now:
+        raise labelled.Unreadable(f"{folder}: has nets of other pictures or settings ({file.read_text()}); allowed is an empty folder")
+    file.write_text(now)
+
+
+def digest(files: list) -> str:
+    """Of names and sizes."""
+    return hashlib.sha256("\n".join(f"{file.name} {file.stat().st_size}" for file in files).encode()).hexdigest()[:16]
+
+
+def of_masters(masters: list) -> str:
+    return digest([master.folder / "amplitude" / f"{master.name}.png" for master in masters])
 
 
 def sets_in(folder: Path) -> list:
@@ -123,21 +161,17 @@ def measure(generated_folder: Path, real: list, folder: Path, steps: int, size: 
                    | {thing.name for picture in real for thing in picture.things if not thing.ignored})
     is_held = np.isin(group, order[:held])
     test = Held([picture for picture, out in zip(real, is_held) if out], group[is_held], names)
-    make = Trainer(names, folder, steps, size, seed, jobs)
-
-    def of_generated():
-        return generated.Examples(masters, names, size, np.random.default_rng(seed))
-
-    say(f"{len(real)} real pictures of {len(order)} groups, {len(test.pictures)} held out; {len(masters)} generated; score {test.kind}")
-    answers: dict = {"generated": [test.answer(make.net_of("generated", of_generated()))]}
+    keep(folder, steps=steps, size=size, seed=seed, generated=of_masters(masters), real=digest([picture.file for picture in real]))
+    make = (Wholes if test.kind == "balanced accuracy" else Detectors)(names, masters, folder, steps, size, seed, jobs)
+    say(f"{len(real)} real pictures of {len(order)} groups, {len(test.pictures)} held out; {len(masters)} generated; score {test.kind}", flush=True)
+    answers: dict = {"generated": [make.answer(test, "generated", True, [])]}
     for k in counts:
         answers[f"real {k}"], answers[f"generated and real {k}"] = [], []
         for draw in range(DRAWS):
             chosen = random.choice(order[held:], k, replace=False)
             pictures = [picture for picture, of in zip(real, group) if of in chosen]
-            answers[f"real {k}"].append(test.answer(make.net_of(f"real_{k}_{draw}", Taken(pictures, names))))
-            answers[f"generated and real {k}"].append(
-                test.answer(make.net_of(f"both_{k}_{draw}", Both(of_generated(), Taken(pictures, names)))))
+            answers[f"real {k}"].append(make.answer(test, f"real_{k}_{draw}", False, pictures))
+            answers[f"generated and real {k}"].append(make.answer(test, f"both_{k}_{draw}", True, pictures))
         say(f"  {k} groups trained", flush=True)
     return {**summary(test, answers, counts), "left_out": left_out, "steps": steps, "size": size}
 

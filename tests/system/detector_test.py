@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from support import BIN, SOURCE
+from support import BIN, SHARED, SOURCE
 
 HERE = SOURCE / "examples/train_detector"
 NEEDED = importlib.util.find_spec("torch") is not None
@@ -218,6 +218,67 @@ class Readers(unittest.TestCase):
 
 
 @unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
+class Realism(unittest.TestCase):
+    """Statistics against their closed forms."""
+
+    def k_distributed(self, shape: float) -> np.ndarray:
+        random = np.random.default_rng(5)
+        return random.gamma(shape, 1 / shape, 400_000) * random.exponential(1, 400_000)
+
+    def test_shape_of_k_distributed_intensity_is_found(self):
+        import realism
+        for shape in (0.5, 2.0, 8.0):
+            for found in (realism.inverse_shape_by_moments, realism.inverse_shape_by_logs):
+                self.assertAlmostEqual(found(self.k_distributed(shape)) * shape, 1, delta=0.06)
+        rayleigh = np.random.default_rng(6).exponential(1, 400_000)
+        self.assertAlmostEqual(realism.inverse_shape_by_moments(rayleigh), 0, delta=0.01)
+        self.assertLess(realism.inverse_shape_by_logs(rayleigh), 0.01)
+        self.assertEqual(realism.inverse_shape_by_logs(rayleigh ** 0.5), 0)  # less varied than speckle
+        self.assertAlmostEqual(realism.contrast(np.sqrt(rayleigh)), 0.5227, delta=0.002)
+
+    def test_texture_of_a_checkerboard_stripes_and_noise(self):
+        import realism
+        board = np.indices((32, 32)).sum(0) % 2
+        self.assertEqual(realism.texture(realism.cooccurrence(board, (0, 1), 2)), {"contrast": 1, "correlation": -1, "energy": 0.5, "entropy": 1})
+        self.assertEqual(realism.texture(realism.cooccurrence(board, (1, 1), 2))["correlation"], 1)
+        stripes = np.indices((32, 32))[0] % 2
+        self.assertEqual([realism.texture(realism.cooccurrence(stripes, step, 2))["correlation"] for step in ((1, 0), (0, 1))], [-1, 1])
+        noise = np.random.default_rng(7).normal(size=(700, 700))
+        level = realism.by_rank(noise)
+        self.assertTrue((np.bincount(level.ravel()) - 700 * 700 / 8 < 2).all())
+        found = realism.texture(realism.cooccurrence(level, (0, 1)))
+        for name, of in (("contrast", 2 * (8 ** 2 - 1) / 12), ("correlation", 0), ("energy", 1 / 64), ("entropy", 6)):
+            self.assertAlmostEqual(found[name], of, delta=0.05)
+        self.assertTrue((realism.by_rank(np.exp(3 * noise)) == level).all())  # a display's curve changes nothing
+
+    @unittest.skipUnless((SHARED / "data/sonar/scotsman-iver2.xtf").is_file(), "there is no real sidescan")
+    def test_windows_of_a_real_sidescan_lie_on_the_seabed(self):
+        """Its water column has 500 counts, its seabed ten thousand; port runs the other way."""
+        import realism
+        of = realism.of_xtf(SHARED / "data/sonar/scotsman-iver2.xtf")
+        self.assertEqual((len(of.groups), len(set(of.groups))), (142, 7))
+        self.assertLess(np.mean([part.mean() < 1000 for part in of.parts]), 0.05)
+
+    def test_two_folders_are_compared_and_interval_holds_the_value(self):
+        with tempfile.TemporaryDirectory() as folder:
+            painted(Path(folder, "a/set/train"), np.random.default_rng(1))
+            painted(Path(folder, "b/set/train"), np.random.default_rng(2))
+            classes_of_cut_outs(Path(folder, "grey"), np.random.default_rng(3), 5)
+            done = run("realism", f"{folder}/a", f"{folder}/b", "--json", f"{folder}/of.json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for of in json.loads(Path(folder, "of.json").read_text())["numbers"]:
+                low, high = of["speckle contrast"]["interval"]
+                self.assertTrue(low <= of["speckle contrast"]["value"] <= high)
+                self.assertAlmostEqual(of["speckle contrast"]["value"], 0.5227, delta=0.1)  # Rayleigh, but for the things
+            done = run("realism", f"{folder}/a", f"{folder}/grey")
+            self.assertEqual((done.returncode, "neither speckle" in done.stdout, "speckle contrast" in done.stdout), (0, True, False), done.stderr)
+            (Path(folder) / "x.xtf").write_bytes(b"no sonar")
+            for wrong, said in (("none", "allowed is an XTF file"), ("x.xtf", "x.xtf")):
+                done = run("realism", f"{folder}/{wrong}", f"{folder}/a")
+                self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
+
+
+@unittest.skipUnless(NEEDED, "there is no PyTorch: apt-get install python3-torch")
 class Worth(unittest.TestCase):
     def test_curve_is_linear_in_log_k(self):
         import worth
@@ -257,7 +318,7 @@ class Training(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             painted(Path(folder, "set/train"), np.random.default_rng(1))
             classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 12)
-            done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "25", "--size", "64", "--jobs", "2")
+            done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "8", "--size", "64", "--jobs", "2")
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             result = json.loads(Path(folder, "out/worth.json").read_text())
             self.assertEqual((result["score"], result["classes"], result["held_out"]), ("balanced accuracy", ["bar", "disc"], 10))
@@ -266,11 +327,71 @@ class Training(unittest.TestCase):
             for of in result["scores"].values():
                 self.assertTrue(0 <= of["interval"][0] <= of["value"] <= of["interval"][1] <= 1, of)
             self.assertIn(result["worth"], ("< 10", "> 10", "10"))
+            at = {file: file.stat().st_mtime_ns for file in Path(folder, "out").glob("*.pt")}
+            self.assertEqual(len(at), 7)
+            again = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--steps", "8", "--size", "64")
+            self.assertEqual((again.returncode, again.stdout), (0, done.stdout), again.stderr)
+            self.assertEqual({file: file.stat().st_mtime_ns for file in at}, at)  # not trained again
             for wrong, said in ((("--real", f"{folder}/out"), "no labelled pictures"), (("--groups", f"{folder}/none.csv"), "none.csv"),
-                                (("--generated", f"{folder}/real"), "no generated set")):
+                                (("--generated", f"{folder}/real"), "no generated set"), (("--size", "64", "--steps", "9"), "nets of other")):
                 done = run("worth", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", *wrong)
                 self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
                 self.assertIn(said, done.stderr)
+
+    def test_cut_outs_teach_their_classes(self):
+        """Discs and bars of another set, cut out and drawn by other displays, are told apart; a scene is a group."""
+        import cut_outs
+        import generated
+        import labelled
+        import whole
+        with tempfile.TemporaryDirectory() as folder:
+            for of, seed in (("a", 1), ("b", 2)):
+                painted(Path(folder, of, "set/train"), np.random.default_rng(seed))
+            done = run("cut", f"{folder}/b", "-o", f"{folder}/cut")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            pictures = labelled.read(Path(folder, "cut"))
+            self.assertTrue(all(picture.group.startswith("b_") for picture in pictures))
+            mine = cut_outs.CutOuts(generated.masters([Path(folder, "a")], "train"))
+            self.assertEqual(mine.limited(6).count(), 6)
+            net = whole.train([mine], ["bar", "disc"], Path(folder, "net.pt"), 40, 64, seed=1)
+            said = whole.said(net, pictures, 64, [0, 1])
+            right = np.mean([["bar", "disc"][of] == picture.things[0].name for of, picture in zip(said, pictures)])
+            self.assertGreater(right, 0.85)
+
+    def test_curve_takes_so_many_cut_outs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            painted(Path(folder, "set/train"), np.random.default_rng(1))
+            classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 8)
+            words = ("curve", "--generated", folder, "--real", f"{folder}/real", "-o", f"{folder}/out", "--counts", "4", "12", "999", "--seeds", "2", "--steps", "2")
+            done = run(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(Path(folder, "out/curve.json").read_text())
+            self.assertEqual({name: of["cut_outs"] for name, of in result.items()}, {"4": 4, "12": 12})  # 999 there are not
+            self.assertEqual(len(list(Path(folder, "out").glob("*.pt"))), 4)
+            done = run(*words[:-1], "3")
+            self.assertEqual((done.returncode, "nets of other" in done.stderr), (2, True), done.stderr)
+
+    def test_each_effect_is_off_alone(self):
+        """Variants are the same scenes. Too few steps to learn anything."""
+        import curve
+        import generated
+        with tempfile.TemporaryDirectory() as folder:
+            classes_of_cut_outs(Path(folder, "real"), np.random.default_rng(2), 8)
+            done = run("effects", str(HERE / "recipes/hung_750khz.yaml"), "-n", "1", "--count", "10", "--seeds", "1", "--steps", "2", "--real", f"{folder}/real", "-o",
+                       f"{folder}/out")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads(Path(folder, "out/effects.json").read_text())
+            self.assertEqual(set(result), set(curve.EFFECTS))
+            self.assertEqual({name for name, of in result.items() if "difference" not in of}, {curve.AS_IT_IS})
+            sets = {name: generated.masters([Path(folder, "out", name.replace(" ", "_"))], "train") for name in curve.EFFECTS}
+            first, owner = sets[curve.AS_IT_IS][0].read()
+            for name in curve.EFFECTS:
+                amplitude, other = sets[name][0].read()
+                self.assertTrue((other == owner).all(), name)
+                self.assertEqual((amplitude == first).all(), name == curve.AS_IT_IS, name)
+            plain = sets[curve.TEXTURE][0]
+            textured = curve.Textured(plain.folder, plain.name, plain.facts).read()[0].astype(float)
+            self.assertAlmostEqual((textured ** 2).sum() / (plain.read()[0].astype(float) ** 2).sum(), 1, delta=0.1)
 
     def test_one_command_makes_and_one_tests(self):
         """Too few steps to find anything; a training goes on where it was cut off."""
