@@ -41,7 +41,7 @@ trace::RayDistribution rays_of(const ProfilerConfig& c) {
   const trace::TransmitVolume cone{trace::TransmitVolume::Axis::kForward,
                                    {-reach, reach, -main, main, main},
                                    {-reach_rad, reach_rad, -c.beamwidth_rad, c.beamwidth_rad, c.beamwidth_rad}};
-  return {cone, c.quality.ray_settings(resolution_m(c)), {c.world->seed, c.process + "/rays"}};
+  return {cone, c.quality.ray_settings(resolution_m(c), c.most_rays), {c.world->seed, c.process + "/rays"}};
 }
 
 }  // namespace

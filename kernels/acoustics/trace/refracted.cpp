@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/acoustics/trace/bent_packet.h"
 #include "kernels/acoustics/trace/packet.h"
 #include "kernels/acoustics/trace/scene_impl.h"
 
@@ -17,18 +18,7 @@ using refraction::Leg;
 using refraction::Path;
 using refraction::PathPoint;
 
-constexpr double kOffArc_m = 0.8e-3;  // a chord is nowhere farther from its arc
-constexpr double kMargin_m = 0.01;    // around the geometry's heights
-
-/// Chords overlap by this, so that no ray slips through where they join: floats round by 0.13 mm (scene.h), which at
-/// half a degree of grazing is 15 mm along the ray. A chord prolonged so far leaves the arc by well under 0.1 mm.
-constexpr double kOverlap_m = 0.05;
-
-/// The depths between which there is geometry.
-struct Band {
-  double top_m;
-  double bottom_m;
-};
+constexpr double kMargin_m = 0.01;  // around the geometry's heights
 
 /// A ray on its way: where its path is, and the chord that comes next.
 struct Lane {
@@ -115,6 +105,20 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   return hit;
 }
 
+/// False where one of these rays needs more than one chord a layer, or more than the table.
+bool trace_side_by_side(const BentPacket::Source& source, const Rays& rays, std::size_t first, std::size_t count,
+                        const PartTree& tree, PartTree::Of of, Hits& hits) {
+  BentPacket bent;
+  if (!bent.aim(source, rays, first, count)) return false;
+  Packet packet;
+  do {
+    if (!bent.cross(source, packet)) return false;
+    packet.intersect(tree, of);
+    bent.note(source, packet, hits);
+  } while (bent.go_on(source, packet));
+  return true;
+}
+
 }  // namespace
 
 void Mesh::tabulate(const refraction::SoundSpeedProfile& profile, const frames::HeadPose& head, double head_depth_m,
@@ -145,8 +149,14 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
   const Vec3 origin(content_->origin_enu_m.x(), content_->origin_enu_m.y(), 0.0);
   const Vec3 start = head.position_enu_m - origin;
 
+  const Layers layers(paths, band);
+  const bool side_by_side = !layers.empty() && (behind == kNoise || behind == kAllBodies);
+  const BentPacket::Source source{paths, layers,      enu_from_head,  head.position_enu_m,
+                                  start, max_range_m, source_slowness};
+
   const auto trace_packet = [&](std::size_t index) {
     const std::size_t first = index * kPacket, count = std::min(kPacket, rays.size() - first);
+    if (side_by_side && trace_side_by_side(source, rays, first, count, tree, of, hits)) return;
     std::array<std::optional<Lane>, kPacket> lanes;
     std::array<Vec3, kPacket> from;
     Packet packet;

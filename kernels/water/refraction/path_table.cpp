@@ -103,6 +103,49 @@ void PathTable::build(const SoundSpeedProfile& profile, double source_depth_m, d
   }
 }
 
+bool PathTable::paths(const LevelPaths::Column& sine, const LevelPaths::Column& cosine, LevelPaths& found) const {
+  constexpr std::size_t kLanes = LevelPaths::kLanes;
+  LevelPaths::Column w2;
+  double flattest = 1.0, upmost = 1.0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    w2[lane] = sine[lane] * sine[lane] - cosine[lane] * cosine[lane] * fall_from_source_;
+    flattest = w2[lane] < flattest ? w2[lane] : flattest;
+    upmost = sine[lane] < upmost ? sine[lane] : upmost;
+  }
+  if (intervals_.empty() || !(upmost > 0.0) || !(flattest >= kFlattest * kFlattest)) return false;
+
+  LevelPaths::Column per_w, reach_slope;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const double w = std::sqrt(w2[lane]);
+    const std::uint64_t index = std::min((std::bit_cast<std::uint64_t>(w) >> kShift) - kFirst, kIntervals - 1);
+    const Interval& in = intervals_[index];
+    const double u = (w - in.low) * in.per_width;
+    per_w[lane] = 1.0 / w;
+    found.time_s[lane] = in.time.value(u);
+    found.length_m[lane] = in.length.value(u);
+    found.reach_m2ps[lane] = in.reach.value(u);
+    reach_slope[lane] = in.per_width * in.reach.slope(u);
+  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const double p = cosine[lane] * source_slowness_spm_, p2 = p * p;
+    const double cosine2_fastest = p2 * fastest_mps_ * fastest_mps_;
+    const double reach = per_w[lane] * found.reach_m2ps[lane];
+    const double at_level = std::sqrt(w2[lane] + cosine2_fastest * rise_to_level_);
+    const double reach_per_w = per_w[lane] * (reach_slope[lane] - reach);
+    const double spread = reach - cosine2_fastest * per_w[lane] * reach_per_w;
+    found.invariant_spm[lane] = p;
+    found.sine[lane] = at_level;
+    found.cosine[lane] = p * at_level_.speed_mps;
+    found.time_s[lane] *= per_w[lane];
+    found.length_m[lane] *= per_w[lane];
+    found.reach_m2ps[lane] = reach;
+    found.width_m[lane] = spread * at_level * sine[lane] * source_slowness_spm_;
+    found.width_slowness[lane] =
+        (sine[lane] * source_slowness_spm_ - found.width_m[lane] * p2 * level_gradient_per_s_) / at_level;
+  }
+  return true;
+}
+
 Path PathTable::path(double sine, double cosine) const {
   const double w2 = sine * sine - cosine * cosine * fall_from_source_;
   if (intervals_.empty() || !(sine > 0.0) || !(w2 >= kFlattest * kFlattest)) {

@@ -1,11 +1,20 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "kernels/water/refraction/eigenray.h"
 
 namespace ensonify::refraction {
+
+/// Paths side by side at their first passage of a level, in double columns (PathPoint).
+struct LevelPaths {
+  static constexpr std::size_t kLanes = 16;
+  using Column = std::array<double, kLanes>;
+  alignas(64) Column invariant_spm, sine, cosine, time_s, length_m, reach_m2ps, width_m, width_slowness;
+};
 
 /// All paths of one ping from a source down to one depth, for any launch direction in constant time.
 ///
@@ -31,6 +40,10 @@ class PathTable {
   /// The path at its first passage of the level, or, when the table does not serve it, at the source. The direction is
   /// a unit vector of components along depth and horizontal (>= 0). The table must outlive the path.
   Path path(double sine, double cosine) const;
+
+  /// The same of as many directions as there are lanes. False where the table does not serve one of them: then nothing
+  /// is said of any.
+  bool paths(const LevelPaths::Column& sine, const LevelPaths::Column& cosine, LevelPaths& found) const;
 
   /// First point at which a path launched at a depression reaches a depth, turning at most once. Empty when it does
   /// not.
