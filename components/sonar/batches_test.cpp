@@ -7,7 +7,7 @@
 
 using namespace ensonify;
 
-TEST_CASE("a shot insonifies the same scatterers in batches of any size, in memory of one batch") {
+TEST_CASE("a shot insonifies the same scatterers in batches of any size, in memory of three") {
   TileSet tiles;
   tiles.insert(tile_of(200.0, 0.5, [](double east, double north) { return -20.0 + std::sin(east) + 0.1 * north; }));
   World world;
@@ -35,8 +35,10 @@ TEST_CASE("a shot insonifies the same scatterers in batches of any size, in memo
     CHECK(some.sums.hits == whole.sums.hits);
     CHECK(some.sums.in_lobe == whole.sums.in_lobe);
     CHECK(some.seabed_depth_m == whole.seabed_depth_m);
-    CHECK(memory.batch.rays.size() <= size);
-    CHECK(memory.source_upa2m2.capacity() <= size);
-    CHECK(memory.batch.hits.range_m.capacity() <= size + size / 8);
+    for (const ShotMemory::OfBatch& own : memory.batches) {
+      CHECK(own.batch.rays.size() <= size);
+      CHECK(own.source_upa2m2.capacity() <= size);
+      CHECK(own.batch.hits.range_m.capacity() <= size + size / 8);
+    }
   }
 }

@@ -46,7 +46,7 @@ Traced traced(TileSet& tiles, const WaterProfile& profile, double east_m = 0.0) 
   sea.insonify(shot, sea.mesh(shot, tiles.scene(), distribution, 45.0), distribution,
                echo::SpeckleCells(0.05, {1, "seabed"}), 45.0, memory);
   REQUIRE(memory.plan.rays() < shot.rays_per_batch);
-  return {std::move(memory.batch.rays), std::move(memory.batch.hits)};
+  return {std::move(memory.batches[0].batch.rays), std::move(memory.batches[0].batch.hits)};
 }
 
 bool same(const Traced& a, std::size_t i, const Traced& b, std::size_t j) {

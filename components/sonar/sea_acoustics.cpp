@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
 #include <tbb/parallel_reduce.h>
 
 #include <array>
@@ -92,16 +93,35 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   HitSums sums;
   memory.insonified.clear();
   memory.bodies.clear();
-  for (std::size_t first = 0; first < memory.plan.rays(); first += shot.rays_per_batch) {
-    distribution.trace(memory.plan, first, shot.rays_per_batch, trace, memory.batch);
-    sums = sums + weigh(shot, backscatter, seabed.contributors(), memory);
-    const profile::Span span(profile::Stage::kMerge);
-    const echo::Insonification batch{pose, memory.batch.rays, memory.batch.hits, memory.source_upa2m2,
-                                     memory.backscatter};
-    echo::take_bodies(batch, memory.batch.to_bodies, 2.0 * std::numbers::pi / wavelength_m, cells.responses(),
-                      memory.batch.hits, memory.bodies);
-    cells.add(batch, memory.insonified);
-  }
+  // While one batch is merged the next ones are traced. Merged are they in their order, whoever is ready first.
+  std::size_t next = 0;
+  const std::size_t batches = (memory.plan.rays() + shot.rays_per_batch - 1) / shot.rays_per_batch;
+  const std::size_t ahead = profile::measured() ? 1 : ShotMemory::kAhead;  // stages that overlap cannot be told apart
+  tbb::parallel_pipeline(ahead, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                                                    [&](tbb::flow_control& flow) {
+                                                                      if (next == batches) flow.stop();
+                                                                      return next == batches ? next : next++;
+                                                                    }) &
+                                    tbb::make_filter<std::size_t, ShotMemory::OfBatch*>(
+                                        tbb::filter_mode::parallel,
+                                        [&](std::size_t number) {
+                                          ShotMemory::OfBatch& own = memory.batches[number % ShotMemory::kAhead];
+                                          distribution.trace(memory.plan, number * shot.rays_per_batch,
+                                                             shot.rays_per_batch, trace, own.batch);
+                                          weigh(shot, backscatter, seabed.contributors(), own);
+                                          return &own;
+                                        }) &
+                                    tbb::make_filter<ShotMemory::OfBatch*, void>(
+                                        tbb::filter_mode::serial_in_order, [&](ShotMemory::OfBatch* own) {
+                                          sums = sums + own->sums;
+                                          const profile::Span span(profile::Stage::kMerge);
+                                          const echo::Insonification batch{pose, own->batch.rays, own->batch.hits,
+                                                                           own->source_upa2m2, own->backscatter};
+                                          echo::take_bodies(batch, own->batch.to_bodies,
+                                                            2.0 * std::numbers::pi / wavelength_m, cells.responses(),
+                                                            own->batch.hits, memory.bodies);
+                                          cells.add(batch, memory.insonified);
+                                        }));
   const profile::Span span(profile::Stage::kMerge);
   return {echo::SpeckleCells::gather(memory.insonified, memory.bodies.rough), memory.bodies.smooth, sums,
           seabed_depth_m};
@@ -159,15 +179,15 @@ void SeaAcoustics::add_echoes_of_smooth_bodies(const Shot& shot, const echo::Sca
 }
 
 /// What the rays of a batch carry to what they hit, and how strongly that scatters.
-HitSums SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter,
-                            const trace::Contributors& contributors, ShotMemory& memory) const {
+void SeaAcoustics::weigh(const Shot& shot, const seabed::ClassTables& backscatter,
+                         const trace::Contributors& contributors, ShotMemory::OfBatch& memory) const {
   const profile::Span span(profile::Stage::kWeigh);
   const trace::Rays& rays = memory.batch.rays;
   const trace::Hits& hits = memory.batch.hits;
   const double source = power_of(sent_db(shot.source_level_db));
   memory.source_upa2m2.resize(rays.size());
   memory.backscatter.resize(rays.size());
-  return tbb::parallel_deterministic_reduce(
+  memory.sums = tbb::parallel_deterministic_reduce(
       tbb::blocked_range<std::size_t>(0, rays.size(), kRaysPerTask), HitSums{},
       [&](const auto& range, HitSums so_far) {
         std::array<double, kRaysPerTask> transmitted;

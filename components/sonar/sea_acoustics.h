@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -166,9 +167,14 @@ struct ShotMemory {
   trace::RayDistribution::Plan plan;
   refraction::PathTable paths;
   Environment::FacetLaws facet_laws;
-  // Of a batch.
-  trace::RayDistribution::Batch batch;
-  std::vector<float> source_upa2m2, backscatter;
+  struct OfBatch {
+    trace::RayDistribution::Batch batch;
+    std::vector<float> source_upa2m2, backscatter;
+    HitSums sums;
+  };
+  /// Batches that are traced and weighed while those before them are merged.
+  static constexpr std::size_t kAhead = 3;
+  std::array<OfBatch, kAhead> batches;
   // Of all.
   echo::SpeckleCells::Accumulator insonified;
   echo::BodyScatterers bodies;
@@ -261,8 +267,8 @@ class SeaAcoustics {
     return {frequency_hz_, sound_speed_mps(shot.pose()), echoed.absorption_dbpm, sum()};
   }
   echo::Sum sum() const { return effects_.speckle ? echo::Sum::kPressure : echo::Sum::kMeanSquare; }
-  HitSums weigh(const Shot& shot, const seabed::ClassTables& backscatter, const trace::Contributors& contributors,
-                ShotMemory& memory) const;
+  void weigh(const Shot& shot, const seabed::ClassTables& backscatter, const trace::Contributors& contributors,
+             ShotMemory::OfBatch& memory) const;
   void add_echoes_of_smooth_bodies(const Shot& shot, const echo::Scatterers& facets, double absorption_dbpm,
                                    const echo::Receivers& receivers, echo::Arrivals& arrivals) const;
   double sent_db(double source_level_db) const;

@@ -76,10 +76,11 @@ Eigen::Vector3f direction_of(TransmitVolume::Axis axis, float along, float side,
                                                 : Eigen::Vector3f(zero, side, along);
 }
 
+/// What each part makes is its own, however many of them are a task.
 template <class Work>
-void for_parts(std::size_t first, std::size_t end, const Work& work) {
+void for_parts(std::size_t first, std::size_t end, const Work& work, std::size_t per_task = kCellsPerTask) {
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(first, end, kCellsPerTask),
+      tbb::blocked_range<std::size_t>(first, end, per_task),
       [&](const auto& range) {
         for (std::size_t k = range.begin(); k < range.end(); ++k) work(k);
       },
@@ -319,18 +320,22 @@ void RayDistribution::fill(const Plan& plan, std::size_t first, std::size_t coun
     const std::size_t low = after(first) - 1, high = after(spread_end - 1);
     if (batch.parts_.size() < high - low) batch.parts_.resize(high - low);
     const Place head{plan.head_, plan.head_.enu_from_head.toRotationMatrix()};
-    for_parts(low, high, [&](std::size_t k) {
-      const Part& part = parts[k];
-      const bool kept = plan.keeps_ && part.to_places_sr > 0.0;
-      const std::vector<Ray>& rays = kept ? plan.kept_[k] : batch.parts_[k - low];
-      if (!kept) fill_part(plan, k, head, batch.parts_[k - low]);
-      const float scale = part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F;
-      const std::size_t from = std::max(first, part.first_ray), to = std::min(spread_end, part.first_ray + part.rays);
-      for (std::size_t i = from; i < to; ++i) {
-        const Ray& ray = rays[i - part.first_ray];
-        batch.rays.set(i - first, {ray.direction_head, scale * ray.solid_angle_sr});
-      }
-    });
+    for_parts(
+        low, high,
+        [&](std::size_t k) {
+          const Part& part = parts[k];
+          const bool kept = plan.keeps_ && part.to_places_sr > 0.0;
+          const std::vector<Ray>& rays = kept ? plan.kept_[k] : batch.parts_[k - low];
+          if (!kept) fill_part(plan, k, head, batch.parts_[k - low]);
+          const float scale = part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F;
+          const std::size_t from = std::max(first, part.first_ray),
+                            to = std::min(spread_end, part.first_ray + part.rays);
+          for (std::size_t i = from; i < to; ++i) {
+            const Ray& ray = rays[i - part.first_ray];
+            batch.rays.set(i - first, {ray.direction_head, scale * ray.solid_angle_sr});
+          }
+        },
+        1);  // a batch has few parts where they have many rays
   }
   for (std::size_t i = std::max(first, plan.spread_); i < end; ++i)
     batch.rays.set(i - first, plan.facets_.rays[i - plan.spread_]);

@@ -69,6 +69,9 @@ Opened open(Stage stage);
 void close(Stage stage, const Opened& opened, std::size_t items);
 }  // namespace detail
 
+/// Whether measuring has begun.
+inline bool measured() { return detail::on.load(std::memory_order_relaxed); }
+
 /// Time from here to the end of the block, and how many items are worked on in it.
 class Span {
  public:
