@@ -8,7 +8,7 @@
 #include "components/config/read_parameters.h"
 #include "components/errors/exit_error.h"
 #include "components/sonar/environment.h"
-#include "components/transport/udp_address.h"
+#include "components/transport/address.h"
 
 namespace ensonify {
 

@@ -40,7 +40,7 @@ bool is_of_water_column(const std::string& format, formats::ByteView datagram) {
 SentFiles::SentFiles(const LoggerConfig& config, Files& files) : formats_(config.formats), files_(files) {
   for (const ReceiverParameters& one : config.send) {
     try {
-      const UdpAddress to = udp_address(one.to);
+      const Address to = udp_address(one.to);
       receivers_.push_back(
           {text_of(to), one.formats,
            std::make_unique<SendStream>(std::make_unique<UdpSender>(to, interface_address(one.interface), one.ttl),

@@ -93,7 +93,8 @@ struct FeedSource {
 
   static void parameters(auto& self, auto&& visit) {
     visit(one_form("needs one of {}"), self.way);
-    visit("at", "", not_empty(), "address of this machine to receive at; 0.0.0.0: all of them", self.at);
+    visit("at", "", not_empty(), "address of this machine to receive at, IPv4 or IPv6; 0.0.0.0 or ::: all of them",
+          self.at);
     visit("senders", "", any(), "addresses whose datagrams and connections are taken; others are refused and counted",
           self.senders);
     visit("format", "",

@@ -49,6 +49,20 @@ TEST_CASE("sources that cannot work together are mistakes with their place") {
   CHECK_THROWS_WITH(read("sources: {a: {udp: 4001, tcp: 4002}}"), Catch::Contains("sources.a"));
 }
 
+TEST_CASE("addresses that are none, and senders that cannot reach the source, are mistakes with their place") {
+  CHECK_NOTHROW(read("sources: {a: {udp: 4001, at: '::1', senders: ['::1']}}"));
+  CHECK_NOTHROW(read("sources: {a: {tcp: 4001, of: '[fd00::7]'}}"));
+  CHECK_THROWS_WITH(
+      read("sources: {a: {udp: 4001, at: '::1'}}"),
+      Catch::Contains("sources.a.senders: none may send to [::1]; allowed: at least one IPv6 address as ::1"));
+  CHECK_THROWS_WITH(read("sources: {a: {udp: 4001, at: bridge}}"),
+                    Catch::Contains("sources.a.at: \"bridge\" is no address; allowed: one such as 127.0.0.1, ::1"));
+  CHECK_THROWS_WITH(read("sources: {a: {udp: 4001, senders: [127.0.0.1, gyro]}}"),
+                    Catch::Contains("sources.a.senders: \"gyro\" is no address"));
+  CHECK_THROWS_WITH(read("sources: {a: {tcp: 4001, of: '::1:4001:'}}"),
+                    Catch::Contains("sources.a.of: \"::1:4001:\" is no host"));
+}
+
 TEST_CASE("pieces of several logs come in the order of their arrival, as sim time goes on") {
   const auto first =
       log_of("a", "2014-08-01T00:00:00Z $GPZDA,120000.00,01,08,2014,,*6B\n$GPZDA,120002.00,01,08,2014,,*69\n");

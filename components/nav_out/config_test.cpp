@@ -47,6 +47,9 @@ TEST_CASE("mistakes of outputs have a place, a cause and what is allowed") {
                     Contains("outputs.nav.to: \"ship\" is no host"));
   CHECK_THROWS_WITH(read("outputs: { nav: { tcp: 10110, of: ship } }"),
                     Contains("outputs.nav.of: \"ship\" is no host"));
+  CHECK_THROWS_WITH(read("outputs: { nav: { tcp_server: 10110, receivers: ['::1', ship] } }"),
+                    Contains("outputs.nav.receivers: \"ship\" is no address"));
+  CHECK_NOTHROW(read("outputs: { nav: { udp: 10110, to: 'fd00::7' }, plot: { tcp: 4001, of: '[::1]' } }"));
   CHECK_THROWS_WITH(read("outputs: { nav: { format: nmea } }"), Contains("needs one of"));
   CHECK_THROWS_WITH(read("outputs: { nav: { udp: 10110, talker: gp } }"), Contains("two capital letters"));
   CHECK_THROWS_WITH(read("outputs: { nav: { udp: 10110, format: tss1, sentences: { GGA: 1 } } }"),

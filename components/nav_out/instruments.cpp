@@ -1,5 +1,6 @@
 #include "components/nav_out/instruments.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -14,8 +15,9 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-constexpr std::uint8_t kGoodAttitude = 0x90;
-constexpr std::uint32_t kNoPlace = 1U;  // of KM binary's status
+constexpr std::uint8_t kGoodAttitude = 0x90, kInvalidAttitude = 0x9A;
+constexpr double kWorstTilt_rad = 1.0 * kDegree, kWorstHeading_rad = 3.0 * kDegree;  // standard deviations, assumed
+constexpr std::uint32_t kNoPlace = 1U;                                               // of KM binary's status
 
 frames::Vec3 vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
@@ -108,6 +110,7 @@ void Instruments::take(const msg::Heading& heading) {
 void Instruments::take(const msg::Estimate& estimate) {
   estimate_before_ = estimate_;
   estimate_ = estimate;
+  accelerating_.take(estimate.stamp_ns, vector_of(estimate.velocity_enu_mps));
 }
 
 /// What the motion sensor says, with the heading that it has been given.
@@ -120,6 +123,15 @@ formats::Motion Instruments::motion() const {
   motion.pitch_rad = attitude_->pitch_rad;
   motion.heave_m = attitude_->heave_m;
   return motion;
+}
+
+nmea::MotionQuality Instruments::quality() const {
+  if (!estimate_) return {};
+  const nmea::MotionAccuracy accuracy = accuracy_of(*estimate_);
+  const double tilt_rad = std::max(accuracy.roll_rad.value_or(0.0), accuracy.pitch_rad.value_or(0.0));
+  return {.heave = true,
+          .roll_and_pitch = tilt_rad <= kWorstTilt_rad,
+          .heading = accuracy.heading_rad.value_or(0.0) <= kWorstHeading_rad};
 }
 
 formats::km_binary::Sample Instruments::km_sample() const {
@@ -157,6 +169,11 @@ formats::km_binary::Sample Instruments::km_sample() const {
                          degrees((angles.pitch_rad - before.pitch_rad) / over_s),
                          degrees(frames::wrap_pi(angles.heading_rad - before.heading_rad) / over_s)};
   }
+  const double convergence_rad = earth_.world->convergence_rad(motion.position_enu_m.head<2>());
+  const frames::Vec3 grid = accelerating_.acceleration_enu_mps2();
+  const double cosine = std::cos(convergence_rad), sine = std::sin(convergence_rad);
+  sample.acceleration_mps2 = {static_cast<float>(grid.y() * cosine - grid.x() * sine),
+                              static_cast<float>(grid.y() * sine + grid.x() * cosine), static_cast<float>(-grid.z())};
   const nmea::MotionAccuracy accuracy = accuracy_of(*estimate_);
   sample.attitude_sd_deg = {degrees(accuracy.roll_rad.value_or(0.0)), degrees(accuracy.pitch_rad.value_or(0.0)),
                             degrees(accuracy.heading_rad.value_or(0.0))};
@@ -167,8 +184,13 @@ std::string Instruments::motion_sentence(Kind kind) const {
   const formats::Motion said = motion();
   switch (kind) {
     case Kind::kPsxn23: return nmea::psxn_23(said);
-    case Kind::kTss1: return formats::tss1::write({said, 0.0, 0.0, 'F'});
-    case Kind::kEmAttitude: return text_of(formats::em_attitude::write({said, kGoodAttitude}));
+    case Kind::kTss1: {
+      const frames::Vec3 acceleration = accelerating_.acceleration_enu_mps2();
+      const char settled = quality().roll_and_pitch ? 'F' : 'f';
+      return formats::tss1::write({said, acceleration.head<2>().norm(), acceleration.z(), settled});
+    }
+    case Kind::kEmAttitude:
+      return text_of(formats::em_attitude::write({said, quality().roll_and_pitch ? kGoodAttitude : kInvalidAttitude}));
     default: return nmea::pashr(said, accuracy_of(*estimate_), position_ ? fix_of(*position_, 0.0).quality : 0);
   }
 }
@@ -190,7 +212,7 @@ std::string Instruments::say(Kind kind, const Output& output) const {
       const auto rate = turning_.rate_radps();
       return rate ? nmea::rot(talker("TI"), {*rate}) : "";
     }
-    case Kind::kPsxn20: return nmea::psxn_20({});
+    case Kind::kPsxn20: return nmea::psxn_20(quality());
     case Kind::kDpt:
     case Kind::kDbt: {
       if (!altitude_ || !altitude_->valid) return "";

@@ -7,6 +7,7 @@
 #include "components/formats/ais/position_report.h"
 #include "components/formats/km_binary/km_binary.h"
 #include "components/formats/nmea/navigation.h"
+#include "components/nav_out/accelerating.h"
 #include "components/nav_out/output.h"
 #include "components/nav_out/turning.h"
 #include "kernels/base/frames/local_projection.h"
@@ -65,6 +66,8 @@ class Instruments {
  private:
   bool ready() const { return earth_.world && estimate_; }
   formats::Motion motion() const;
+  /// Not to be used where the estimate says that it is worse than an instrument would give out.
+  nmea::MotionQuality quality() const;
   formats::km_binary::Sample km_sample() const;
   std::string motion_sentence(Kind kind) const;
 
@@ -76,6 +79,7 @@ class Instruments {
   std::optional<msg::Altitude> altitude_;
   std::optional<msg::Estimate> estimate_, estimate_before_;
   Turning turning_;
+  Accelerating accelerating_;
   bool compass_ = false;
 };
 

@@ -198,6 +198,52 @@ TEST_CASE("formats of motion sensors leave as frames, true heading among them") 
   CHECK_THAT(km->velocity_mps[0], WithinAbs(4.0 * std::cos(true_heading_rad(2_s)), 1e-3));
 }
 
+TEST_CASE("TSS1 and KM binary have the accelerations of the estimate's velocity") {
+  nav_out::Instruments instruments(kStart_unix_ns, 1);
+  instruments.set_origin(kOrigin);
+  const auto bytes = [](const std::string& text) { return std::as_bytes(std::span(text)); };
+  instruments.take(attitude_at(0_s));
+  for (int n = 0; n <= 100; ++n) {
+    msg::Estimate estimate = estimate_at(n * 10_ms);
+    const double t_s = 0.01 * n;
+    estimate.velocity_enu_mps = {0.3 * t_s, 0.4 * t_s, -0.25 * t_s};
+    instruments.take(estimate);
+  }
+  const auto said = formats::tss1::read(bytes(instruments.say(nav_out::Kind::kTss1, {})));
+  REQUIRE(said);
+  CHECK_THAT(said->horizontal_acceleration_mps2, WithinAbs(0.5, 0.0383 / 2));
+  CHECK_THAT(said->vertical_acceleration_mps2, WithinAbs(-0.25, 0.000625 / 2 + 1e-9));
+  const auto km = formats::km_binary::read(bytes(instruments.say(nav_out::Kind::kKmBinary, {})));
+  REQUIRE(km);
+  const double true_rad = std::atan2(0.3, 0.4) + kWorld.convergence_rad({estimate_at(1_s).position_enu_m[0], 0.0});
+  CHECK_THAT(km->acceleration_mps2[0], WithinAbs(0.5 * std::cos(true_rad), 1e-5));
+  CHECK_THAT(km->acceleration_mps2[1], WithinAbs(0.5 * std::sin(true_rad), 1e-5));
+  CHECK_THAT(km->acceleration_mps2[2], WithinAbs(0.25, 1e-6));
+}
+
+TEST_CASE("what the estimate knows badly is said to be invalid, in each format's way") {
+  nav_out::Instruments instruments(kStart_unix_ns, 1);
+  instruments.set_origin(kOrigin);
+  const auto bytes = [](const std::string& text) { return std::as_bytes(std::span(text)); };
+  const auto say_with = [&](double tilt_deg, double heading_deg) {
+    msg::Estimate estimate = estimate_at(0_s);
+    const double tilt = std::pow(tilt_deg * kDegree, 2), heading = std::pow(heading_deg * kDegree, 2);
+    estimate.rotation_covariance_enu_rad2 = {tilt, 0, 0, 0, tilt, 0, 0, 0, heading};
+    instruments.take(estimate);
+    instruments.take(attitude_at(0_s));
+    const auto psxn = std::get<nmea::MotionQuality>(nmea::read_navigation(instruments.say(nav_out::Kind::kPsxn20, {})));
+    CHECK(formats::tss1::read(bytes(instruments.say(nav_out::Kind::kTss1, {})))->motion.usable == psxn.roll_and_pitch);
+    CHECK(formats::em_attitude::read(bytes(instruments.say(nav_out::Kind::kEmAttitude, {})))->motion.usable ==
+          psxn.roll_and_pitch);
+    return psxn;
+  };
+  CHECK(say_with(0.02, 0.1).roll_and_pitch);
+  CHECK(say_with(0.02, 0.1).heading);
+  CHECK_FALSE(say_with(1.5, 0.1).roll_and_pitch);
+  CHECK_FALSE(say_with(0.02, 5.0).heading);
+  CHECK(say_with(0.02, 5.0).roll_and_pitch);
+}
+
 TEST_CASE("without a compass HDT has the heading of attitude, from true north") {
   nav_out::Instruments instruments(kStart_unix_ns, 1);
   instruments.set_origin(kOrigin);

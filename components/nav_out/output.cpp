@@ -8,8 +8,9 @@
 
 #include "components/config/config_reader.h"
 #include "components/errors/exit_error.h"
+#include "components/transport/address.h"
+#include "components/transport/channel.h"
 #include "components/transport/serial_line.h"
-#include "components/transport/udp_address.h"
 
 namespace ensonify {
 namespace {
@@ -123,11 +124,15 @@ void Output::check(const ConfigReader& from) const {
   if (format == Format::kNmea && from.has("rate_hz") && rate_hz != usual.rate_hz)
     from.problem("rate_hz", "is that of other formats; of nmea each of the sentences has its own");
   if (const auto* udp = std::get_if<Udp>(&way)) {
-    check_address(from, "to", [&] { udp_address(fmt::format("{}:{}", udp->to, udp->port)); });
+    check_address(from, "to", [&] { receiver_address(udp->to, udp->port); });
     check_address(from, "interface", [&] { interface_address(udp->interface); });
   }
+  if (const auto* server = std::get_if<TcpServer>(&way)) {
+    check_address(from, "at", [&] { host_address(server->at); });
+    check_address(from, "receivers", [&] { Senders{server->receivers}; });
+  }
   if (const auto* client = std::get_if<TcpClient>(&way))
-    check_address(from, "of", [&] { udp_address(fmt::format("{}:{}", client->address, client->port)); });
+    check_address(from, "of", [&] { receiver_address(client->address, client->port); });
   const auto* serial = std::get_if<Serial>(&way);
   if (serial == nullptr) return;
   check_address(from, "baud", [&] { serial::check_baud(serial->baud); });

@@ -24,8 +24,9 @@ struct Udp {
   int ttl = 1;
   static void parameters(auto& self, auto&& visit) {
     visit("udp", "", must(in(1, 65535)), "UDP port of the receiver, or of a group", self.port);
-    visit("to", "", not_empty(), "IPv4 address of the receiver, or of a group", self.to);
-    visit("interface", "", not_empty(), "address of this machine's interface by which a group is sent to",
+    visit("to", "", not_empty(), "address of the receiver, or of a group, IPv4 or IPv6", self.to);
+    visit("interface", "", not_empty(),
+          "address of this machine's interface by which a group of IPv4 is sent to; one of IPv6 names it: ff02::1%eth0",
           self.interface);
     visit("ttl", "", in(0, 255), "number of routers that a group's datagrams pass, and one: 1 stays in the network",
           self.ttl);
@@ -38,7 +39,8 @@ struct TcpServer {
   std::vector<std::string> receivers{"127.0.0.1"};
   static void parameters(auto& self, auto&& visit) {
     visit("tcp_server", "", must(in(1024, 65535)), "TCP port to which receivers connect, eight at most", self.port);
-    visit("at", "", not_empty(), "address of this machine to which they connect; 0.0.0.0: all of them", self.at);
+    visit("at", "", not_empty(),
+          "address of this machine to which they connect, IPv4 or IPv6; 0.0.0.0 or ::: all of them", self.at);
     visit("receivers", "", any(), "addresses that may connect; others are refused and counted", self.receivers);
   }
 };
@@ -48,7 +50,7 @@ struct TcpClient {
   std::string address = "127.0.0.1";
   static void parameters(auto& self, auto&& visit) {
     visit("tcp", "", must(in(1, 65535)), "TCP port of the receiver, to connect to", self.port);
-    visit("of", "", not_empty(), "IPv4 address of the receiver that is connected to", self.address);
+    visit("of", "", not_empty(), "address of the receiver that is connected to, IPv4 or IPv6", self.address);
   }
 };
 

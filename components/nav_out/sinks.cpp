@@ -24,7 +24,7 @@ using To = std::variant<std::unique_ptr<SendStream>, std::ofstream>;
 To opened(const Output& output, const std::filesystem::path& folder) {
   return std::visit(
       Overloaded{[](const Output::Udp& way) -> To {
-                   const UdpAddress to = udp_address(fmt::format("{}:{}", way.to, way.port));
+                   const Address to = receiver_address(way.to, way.port);
                    return stream(std::make_unique<UdpSender>(to, interface_address(way.interface), way.ttl));
                  },
                  [](const Output::TcpServer& way) -> To {

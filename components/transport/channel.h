@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "components/transport/address.h"
+
 namespace ensonify {
 
 /// A way by which bytes come in: a UDP port, a TCP connection to or from elsewhere, a serial line. Of one thread.
@@ -32,14 +34,15 @@ class Channel {
   std::string trouble_;
 };
 
-/// Addresses of senders, as numbers: "127.0.0.1". Throws UserError for one that is none.
+/// Addresses of senders, as numbers: "127.0.0.1", "::1". Throws UserError for one that is none.
 class Senders {
  public:
   explicit Senders(const std::vector<std::string>& addresses);
-  bool allow(std::uint32_t ipv4_network_order) const;
+  /// Whatever its port.
+  bool allow(const Address& sender) const;
 
  private:
-  std::vector<std::uint32_t> allowed_;
+  std::vector<Address> allowed_;
 };
 
 // Each throws UserError where it cannot begin: a port that is taken, a line that is not there. A connection that is not

@@ -1,16 +1,11 @@
 #include "components/transport/descriptor.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdint>
 #include <utility>
-
-#include "components/errors/exit_error.h"
 
 namespace ensonify {
 
@@ -33,17 +28,5 @@ std::optional<std::string> read_some(const Descriptor& fd) {
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return "";
   return std::nullopt;
 }
-
-sockaddr_in ipv4(const std::string& address, int port) {
-  sockaddr_in found{};
-  found.sin_family = AF_INET;
-  found.sin_port = htons(static_cast<std::uint16_t>(port));
-  if (::inet_pton(AF_INET, address.c_str(), &found.sin_addr) != 1) {
-    throw UserError("\"" + address + "\" is no address; allowed: one such as 127.0.0.1");
-  }
-  return found;
-}
-
-std::string place_of(const std::string& address, int port) { return address + ":" + std::to_string(port); }
 
 }  // namespace ensonify

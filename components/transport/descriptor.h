@@ -4,8 +4,6 @@
 #include <optional>
 #include <string>
 
-struct sockaddr_in;
-
 namespace ensonify {
 
 /// An open file descriptor, closed with its owner.
@@ -33,10 +31,5 @@ bool comes_within(const Descriptor& fd, short events, std::chrono::milliseconds 
 
 /// What is there to be read, 65,536 bytes at most: "" when nothing is; nothing when the other end is gone.
 std::optional<std::string> read_some(const Descriptor& fd);
-
-/// Of "127.0.0.1" and a port. Throws UserError for what is no such address.
-sockaddr_in ipv4(const std::string& address, int port);
-/// "127.0.0.1:4001"
-std::string place_of(const std::string& address, int port);
 
 }  // namespace ensonify

@@ -1,16 +1,17 @@
 #include "components/transport/send_stream.h"
 
-#include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cstring>
 #include <optional>
 #include <string>
 
 #include "components/errors/exit_error.h"
+#include "components/transport/socket_address.h"
 #include "components/transport/udp_sender.h"
 
 using namespace ensonify;
@@ -26,23 +27,23 @@ class Receiver {
   explicit Receiver(const char* group = nullptr) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
     const timeval patience{2, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    ::inet_pton(AF_INET, group != nullptr ? group : "127.0.0.1", &address.sin_addr);
-    REQUIRE(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    const Address own = host_address(group != nullptr ? group : "127.0.0.1");
+    const SocketAddress address(own);
+    REQUIRE(::bind(socket_, address.data(), address.size()) == 0);
     if (group != nullptr) {
-      const ip_mreq member{address.sin_addr, {htonl(INADDR_LOOPBACK)}};
+      ip_mreq member{{}, {htonl(INADDR_LOOPBACK)}};
+      std::memcpy(&member.imr_multiaddr, own.bytes.data(), sizeof member.imr_multiaddr);
       REQUIRE(::setsockopt(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member) == 0);
     }
-    socklen_t length = sizeof address;
-    REQUIRE(::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &length) == 0);
-    address_ = {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+    SocketAddress given;
+    REQUIRE(::getsockname(socket_, given.data(), given.size_given()) == 0);
+    address_ = given.address();
   }
   ~Receiver() { ::close(socket_); }
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
 
-  const UdpAddress& address() const { return address_; }
+  const Address& address() const { return address_; }
   std::optional<std::string> take() {
     std::array<char, 65'536> buffer;
     const ssize_t got = ::recv(socket_, buffer.data(), buffer.size(), 0);
@@ -52,10 +53,10 @@ class Receiver {
 
  private:
   int socket_;
-  UdpAddress address_;
+  Address address_;
 };
 
-const UdpAddress kLoopback = interface_address("localhost");
+const Address kLoopback = interface_address("localhost");
 
 std::vector<std::byte> bytes_of(const std::string& text) {
   const auto view = std::as_bytes(std::span(text));
@@ -63,7 +64,7 @@ std::vector<std::byte> bytes_of(const std::string& text) {
 }
 
 /// A port of this machine that nobody reads: it was just free.
-UdpAddress absent() { return Receiver().address(); }
+Address absent() { return Receiver().address(); }
 
 }  // namespace
 
@@ -102,9 +103,9 @@ TEST_CASE("a receiver that is not there is counted and is no error") {
 
 TEST_CASE("a way that is not there loses datagrams and is no error") {
   // Sending to everybody at once takes a permission that these sockets do not ask for.
-  UdpSender sender(UdpAddress{0x7FFFFFFF, 9}, kLoopback, 1);
+  UdpSender sender(receiver_address("127.255.255.255", 9), kLoopback, 1);
   CHECK(sender.send(bytes_of("nowhere")) == Sender::Outcome::unreachable);
-  SendStream stream(std::make_unique<UdpSender>(UdpAddress{0x7FFFFFFF, 9}, kLoopback, 1), kRate);
+  SendStream stream(std::make_unique<UdpSender>(receiver_address("127.255.255.255", 9), kLoopback, 1), kRate);
   stream.offer(bytes_of("nowhere"));
   stream.finish();
   CHECK(stream.counts().lost == 1);

@@ -112,5 +112,5 @@ TEST_CASE("a way out that cannot be is a mistake of the user's, with what is all
   CHECK_THROWS_WITH(tcp_server_sender("127.0.0.1", port, kThisMachine),
                     Catch::Contains("allowed: a port that is free"));
   CHECK_THROWS_WITH(serial_sender("/dev/no_such_line", 9600), Catch::Contains("allowed: a line such as"));
-  CHECK_THROWS_WITH(tcp_client_sender("nowhere", 1), Catch::Contains("is no address"));
+  CHECK_THROWS_WITH(tcp_client_sender("nowhere", 1), Catch::Contains("is no host"));
 }

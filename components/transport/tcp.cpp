@@ -1,6 +1,5 @@
 #include "components/transport/tcp.h"
 
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -8,21 +7,16 @@
 #include <cstring>
 
 #include "components/errors/exit_error.h"
+#include "components/transport/socket_address.h"
 
 namespace ensonify::tcp {
-namespace {
-
-Descriptor socket() { return Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)); }
-
-}  // namespace
-
 Descriptor listener(const std::string& address, int port) {
-  Descriptor made = socket();
-  const sockaddr_in own = ipv4(address, port);
+  const Address here = host_address(address, port);
+  Descriptor made = socket_of(here.family, SOCK_STREAM);
+  const SocketAddress own(here);
   const int yes = 1;
   ::setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  if (!made.is_open() || ::bind(made.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0 ||
-      ::listen(made.get(), 4) != 0) {
+  if (!made.is_open() || ::bind(made.get(), own.data(), own.size()) != 0 || ::listen(made.get(), 4) != 0) {
     throw UserError("cannot listen to TCP port " + std::to_string(port) + " of " + address + ": " +
                     std::strerror(errno) + "; allowed: a port that is free");
   }
@@ -30,18 +24,16 @@ Descriptor listener(const std::string& address, int port) {
 }
 
 Accepted accept(const Descriptor& listener, const Senders& allowed) {
-  sockaddr_in other{};
-  socklen_t length = sizeof other;
-  Descriptor connection(
-      ::accept4(listener.get(), reinterpret_cast<sockaddr*>(&other), &length, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  const bool may = connection.is_open() && allowed.allow(other.sin_addr.s_addr);
+  SocketAddress other;
+  Descriptor connection(::accept4(listener.get(), other.data(), other.size_given(), SOCK_NONBLOCK | SOCK_CLOEXEC));
+  const bool may = connection.is_open() && allowed.allow(other.address());
   return {std::move(connection), may};
 }
 
-Descriptor connect(const std::string& address, int port, std::chrono::milliseconds limit) {
-  Descriptor trying = socket();
-  const sockaddr_in other = ipv4(address, port);
-  if (::connect(trying.get(), reinterpret_cast<const sockaddr*>(&other), sizeof other) == 0) return trying;
+Descriptor connect(const Address& address, std::chrono::milliseconds limit) {
+  Descriptor trying = socket_of(address.family, SOCK_STREAM);
+  const SocketAddress other(address);
+  if (::connect(trying.get(), other.data(), other.size()) == 0) return trying;
   if (errno != EINPROGRESS || !comes_within(trying, POLLOUT, limit)) return Descriptor();
   int error = 0;
   socklen_t length = sizeof error;

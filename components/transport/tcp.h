@@ -24,6 +24,6 @@ struct Accepted {
 Accepted accept(const Descriptor& listener, const Senders& allowed);
 
 /// Not open where none can be made within the time.
-Descriptor connect(const std::string& address, int port, std::chrono::milliseconds limit);
+Descriptor connect(const Address& address, std::chrono::milliseconds limit);
 
 }  // namespace ensonify::tcp

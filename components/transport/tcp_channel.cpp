@@ -1,4 +1,3 @@
-#include <netinet/in.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -47,8 +46,7 @@ class TcpChannel : public Channel {
 
 class TcpClient : public TcpChannel {
  public:
-  TcpClient(const std::string& address, int port) : address_(address), port_(port) {
-    ipv4(address, port);  // throws
+  TcpClient(const std::string& address, int port) : other_(receiver_address(address, port)) {
     trouble_ = no_connection();
   }
 
@@ -60,14 +58,13 @@ class TcpClient : public TcpChannel {
       return false;
     }
     next_try_ = now + tcp::kTryAgain;
-    Descriptor trying = tcp::connect(address_, port_, limit);
+    Descriptor trying = tcp::connect(other_, limit);
     if (!trying.is_open()) return false;
     return connected(std::move(trying));
   }
-  std::string no_connection() const override { return "no connection to " + place_of(address_, port_); }
+  std::string no_connection() const override { return "no connection to " + text_of(other_); }
 
-  std::string address_;
-  int port_;
+  Address other_;
   std::chrono::steady_clock::time_point next_try_{};
 };
 

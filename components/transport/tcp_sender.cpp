@@ -1,4 +1,3 @@
-#include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -22,9 +21,7 @@ Outlet outlet_of(Descriptor connection) {
 
 class TcpClientSender : public Sender {
  public:
-  TcpClientSender(const std::string& address, int port) : address_(address), port_(port) {
-    ipv4(address, port);  // throws
-  }
+  TcpClientSender(const std::string& address, int port) : other_(receiver_address(address, port)) {}
 
   Outcome send(std::span<const std::byte> piece) override {
     if (!to_.is_open() && !connect()) return Outcome::unreachable;
@@ -40,12 +37,11 @@ class TcpClientSender : public Sender {
     const auto now = std::chrono::steady_clock::now();
     if (now < next_try_) return false;
     next_try_ = now + tcp::kTryAgain;
-    to_ = outlet_of(tcp::connect(address_, port_, kPatience));
+    to_ = outlet_of(tcp::connect(other_, kPatience));
     return to_.is_open();
   }
 
-  std::string address_;
-  int port_;
+  Address other_;
   Outlet to_;
   std::chrono::steady_clock::time_point next_try_{};
 };

@@ -1,4 +1,3 @@
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -9,16 +8,19 @@
 
 #include "components/errors/exit_error.h"
 #include "components/transport/channel.h"
-#include "components/transport/descriptor.h"
+#include "components/transport/socket_address.h"
 
 namespace ensonify {
 
 Senders::Senders(const std::vector<std::string>& addresses) {
-  for (const std::string& address : addresses) allowed_.push_back(ipv4(address, 0).sin_addr.s_addr);
+  for (const std::string& address : addresses) allowed_.push_back(host_address(address));
 }
 
-bool Senders::allow(std::uint32_t ipv4_network_order) const {
-  return std::find(allowed_.begin(), allowed_.end(), ipv4_network_order) != allowed_.end();
+bool Senders::allow(const Address& sender) const {
+  return std::ranges::any_of(allowed_, [&](const Address& one) {
+    return one.family == sender.family && one.bytes == sender.bytes &&
+           (one.interface == 0 || one.interface == sender.interface);
+  });
 }
 
 namespace {
@@ -26,9 +28,9 @@ namespace {
 class UdpChannel : public Channel {
  public:
   UdpChannel(const std::string& address, int port, const Senders& senders)
-      : senders_(senders), socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-    const sockaddr_in own = ipv4(address, port);
-    if (!socket_.is_open() || ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0) {
+      : senders_(senders), socket_(socket_of(host_address(address).family, SOCK_DGRAM)) {
+    const SocketAddress own(host_address(address, port));
+    if (!socket_.is_open() || ::bind(socket_.get(), own.data(), own.size()) != 0) {
       throw UserError("cannot listen to UDP port " + std::to_string(port) + " of " + address + ": " +
                       std::strerror(errno) + "; allowed: a port that is free");
     }
@@ -37,12 +39,10 @@ class UdpChannel : public Channel {
   std::optional<Piece> wait(std::chrono::milliseconds limit) override {
     if (!comes_within(socket_, POLLIN, limit)) return std::nullopt;
     std::array<char, 65536> buffer;  // no datagram is longer
-    sockaddr_in sender{};
-    socklen_t length = sizeof sender;
-    const ssize_t got =
-        ::recvfrom(socket_.get(), buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&sender), &length);
+    SocketAddress sender;
+    const ssize_t got = ::recvfrom(socket_.get(), buffer.data(), buffer.size(), 0, sender.data(), sender.size_given());
     if (got < 0) return std::nullopt;
-    if (!senders_.allow(sender.sin_addr.s_addr)) {
+    if (!senders_.allow(sender.address())) {
       ++refused_;
       return std::nullopt;
     }

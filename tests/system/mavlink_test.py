@@ -1,4 +1,5 @@
 """An autopilot's MAVLink drives a boat through the gateway, in real time: on its track, through its restart, past strangers."""
+import contextlib
 import importlib.util
 import json
 import math
@@ -35,7 +36,7 @@ clock: {{ rate: 1 }}
 duration_s: {seconds}
 processes:
   autopilot:
-    run: [{python}, -m, ensonify.mavlink, --listen, "udp:127.0.0.1:{listen}", --to, "127.0.0.1:{to}", --geoid-above-ellipsoid-m, "{geoid}"]
+    run: [{python}, -m, ensonify.mavlink, {way}, --to, "127.0.0.1:{to}", --geoid-above-ellipsoid-m, "{geoid}"]
     observer: true
   boat: {{ run: nav_feed, config: {{ delay_s: {delay}, sources: {{ autopilot: {{ udp: {to}, format: km_binary }} }} }} }}
   recorder: {{ run: recorder, config: {{ file: run.mcap, topics: [boat/pose, boat/fix, boat/health] }} }}
@@ -135,14 +136,36 @@ def attitude_of(quaternions):
 
 @unittest.skipUnless(importlib.util.find_spec("pymavlink"), "pymavlink is not there: pip install 'ensonify[mavlink]'")
 class Mavlink(SystemTest):
-    def play(self, listen, stop):
+    def play(self, send, stop):
         autopilots = Autopilot(1), Autopilot(42), Autopilot(1, component=191)
         began = time.monotonic() + 0.5
+        for at_s, datagram in frames(self.track, *autopilots, time.time()):
+            if stop.wait(max(0.0, began + at_s - time.monotonic())):
+                return
+            send(datagram)
+
+    def play_datagrams(self, listen, stop):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as out:
-            for at_s, datagram in frames(self.track, *autopilots, time.time()):
-                if stop.wait(max(0.0, began + at_s - time.monotonic())):
-                    return
-                out.sendto(datagram, ("127.0.0.1", listen))
+            self.play(lambda datagram: out.sendto(datagram, ("127.0.0.1", listen)), stop)
+
+    def play_a_stream(self, listen, stop):
+        """To the first who connects, in pieces that end within frames."""
+        with socket.socket() as server:
+            server.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            server.bind(("127.0.0.1", listen))
+            server.listen(1)
+            server.settimeout(30)
+            connection, _ = server.accept()
+            rest = b""
+
+            def send(frame):
+                nonlocal rest
+                rest += frame
+                connection.sendall(rest[:-3])
+                rest = rest[-3:]
+
+            with connection, contextlib.suppress(ConnectionError):  # the run's end ends it
+                self.play(send, stop)
 
     def wait_for_the_gateway(self):
         log = self.folder / "out/log/autopilot.log"
@@ -152,14 +175,20 @@ class Mavlink(SystemTest):
             time.sleep(0.02)
 
     def test_a_boat_follows_an_autopilots_track_through_its_restart(self):
+        self.expect_that_a_boat_follows("--listen, 'udp:127.0.0.1:{listen}'", self.play_datagrams)
+
+    def test_a_boat_follows_an_autopilot_over_tcp(self):
+        self.expect_that_a_boat_follows("--connect, 'tcp:127.0.0.1:{listen}'", self.play_a_stream)
+
+    def expect_that_a_boat_follows(self, way, play):
         self.track = Track()
         listen, to = free_port(), free_port()
         run = self.start_launch(LAUNCH.format(source=SOURCE, latitude=SITE[0], longitude=SITE[1], seconds=SECONDS, python=sys.executable,
-                                              listen=listen, to=to, geoid=GEOID_M, delay=DELAY_S))
+                                              way=way.format(listen=listen), to=to, geoid=GEOID_M, delay=DELAY_S))
         self.wait_for_go()
         self.wait_for_the_gateway()
         stop = threading.Event()
-        sender = threading.Thread(target=self.play, args=(listen, stop))
+        sender = threading.Thread(target=play, args=(listen, stop))
         sender.start()
         _, error = run.communicate(timeout=200)
         stop.set()

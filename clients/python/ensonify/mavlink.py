@@ -1,6 +1,7 @@
 """A gateway from an autopilot's MAVLink to a nav_feed: KM binary samples of its attitude and position, with UTC.
 
     python -m ensonify.mavlink --listen udp:127.0.0.1:14550 --to 127.0.0.1:10110
+    python -m ensonify.mavlink --connect tcp:127.0.0.1:5760 --to 127.0.0.1:10110
 
 Frames and signs are those of the MAVLink definitions: body forward, starboard, down; latitude and longitude in 1e-7
 degrees; altitude in mm above mean sea level. In KM binary [KongsbergKmall] roll is port up, pitch bow up and heading true,
@@ -9,6 +10,7 @@ which is the same attitude; its height is of the ellipsoid.
 import argparse
 import collections
 import datetime
+import ipaddress
 import json
 import math
 import signal
@@ -26,6 +28,7 @@ BOOT_JUMP_S = 5.0  # a boot time that runs ahead of its arrival by more is of an
 UTC_JUMP_S = 0.1  # a step of UTC that is said; every one is followed
 EARLIEST_UTC_US, LATEST_UTC_US = 946684800 * 10**6, 4102444800 * 10**6  # 2000 to 2100: clocks without UTC say 0 or count from 1970
 FASTEST_RADPS = 1000.0
+TRY_AGAIN_S, CONNECT_S = 1.0, 5.0
 
 # The #KMB sample of #SKM, alone: mark, bytes, version; s, ns, status; latitude, longitude; ellipsoid height, roll, pitch,
 # heading, heave; rates; velocity; deviations and acceleration, which are 0; delayed heave with its time.
@@ -205,15 +208,24 @@ class Join:
 
 
 class Decoder:
-    """Messages of one system's autopilot out of datagrams, each of which has whole frames; version 1 or 2, signatures are not checked."""
+    """Messages of one system's autopilot; version 1 or 2, signatures are not checked. Each datagram has whole frames; a connection
+    goes on where it was."""
 
     def __init__(self, system: int, component: int, counts: collections.Counter):
         from pymavlink.dialects.v20 import common
 
         self._mavlink, self._system, self._component, self._counts = common, system, component, counts
+        self._parser = None
 
-    def take(self, datagram: bytes, join: Join, arrival_s: float) -> None:
-        for message in self._messages(datagram):
+    def begin(self) -> None:
+        """Another datagram, or another connection: what is left of a frame is lost."""
+        if self._parser is not None and self._parser.buf_len() > 0:
+            self._counts["frames_cut"] += 1
+        self._parser = self._mavlink.MAVLink(None)
+        self._parser.robust_parsing = True
+
+    def take(self, piece: bytes, join: Join, arrival_s: float) -> None:
+        for message in self._messages(piece):
             kind = message.get_type()
             if message.get_srcSystem() != self._system:
                 self._counts["of_other_systems"] += 1
@@ -231,10 +243,9 @@ class Decoder:
             else:
                 self._counts["other_messages"] += 1
 
-    def _messages(self, datagram: bytes) -> Iterator:
-        parser = self._mavlink.MAVLink(None)
-        parser.robust_parsing = True
-        for message in parser.parse_buffer(datagram) or []:
+    def _messages(self, piece: bytes) -> Iterator:
+        assert self._parser is not None
+        for message in self._parser.parse_buffer(piece) or []:
             kind = message.get_type()
             if kind == "BAD_DATA":
                 self._counts["bad_crc" if "invalid MAVLink CRC" in message.reason else "not_mavlink"] += 1
@@ -242,20 +253,47 @@ class Decoder:
                 self._counts["other_messages"] += 1
             else:
                 yield message
-        if parser.buf_len() > 0:
-            self._counts["frames_cut"] += 1
 
 
-def address(text: str, way: str = "") -> tuple:
-    """HOST:PORT, behind the way that is given."""
+class Address(NamedTuple):
+    host: str  # of IPv6 without brackets
+    port: int
+
+    def __str__(self) -> str:
+        return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"
+
+
+def address(text: str, *ways: str) -> Address:
+    """HOST:PORT, behind one of the ways where some are given."""
+    allowed = " or ".join(f"{way}HOST:PORT" for way in ways or [""]) + f", as {(ways or [''])[0]}127.0.0.1:14550 or {(ways or [''])[0]}[::1]:14550"
+    way = next((way for way in ways if text.startswith(way)), "")
     host, _, port = text.removeprefix(way).rpartition(":")
-    if not text.startswith(way) or not host or not port.isdigit() or not 0 < int(port) < 65536:
-        raise argparse.ArgumentTypeError(f"{text}; allowed is {way}HOST:PORT, as {way}127.0.0.1:14550")
-    return host, int(port)
+    bare = host[1:-1] if host.startswith("[") and host.endswith("]") else host
+    if bool(ways) != bool(way) or not bare or (":" in bare) != (bare != host) or not port.isdigit() or not 0 < int(port) < 65536:
+        raise argparse.ArgumentTypeError(f"{text}; allowed is {allowed}")
+    return Address(bare, int(port))
 
 
-def listened(text: str) -> tuple:
-    return address(text, "udp:")
+class Way(NamedTuple):
+    """How MAVLink comes: to a UDP port, over a connection that the autopilot makes, or over one to it."""
+
+    name: str  # "udp", "tcp_server", "tcp"
+    address: Address
+
+
+def listened(text: str) -> Way:
+    return Way("tcp_server" if text.startswith("tcp:") else "udp", address(text, "udp:", "tcp:"))
+
+
+def connected(text: str) -> Way:
+    return Way("tcp", address(text, "tcp:"))
+
+
+def sender(text: str) -> str:
+    try:
+        return str(ipaddress.ip_address(text))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text}; allowed is an address, as 127.0.0.1 or ::1") from None
 
 
 def identity(text: str) -> int:
@@ -266,14 +304,85 @@ def identity(text: str) -> int:
 
 def parser() -> argparse.ArgumentParser:
     of = argparse.ArgumentParser(prog="python -m ensonify.mavlink", description="MAVLink in, KM binary out, for a nav_feed.")
-    of.add_argument("--listen", type=listened, default="udp:127.0.0.1:14550", help="where MAVLink comes (default: udp:127.0.0.1:14550)")
+    ways = of.add_mutually_exclusive_group()
+    ways.add_argument("--listen", dest="way", metavar="WAY:HOST:PORT", type=listened, default="udp:127.0.0.1:14550",
+                      help="where MAVLink comes; tcp: over one connection at a time (default: udp:127.0.0.1:14550)")
+    ways.add_argument("--connect", dest="way", metavar="tcp:HOST:PORT", type=connected,
+                      help="an autopilot that waits for connections: tried again every second")
     of.add_argument("--to", type=address, required=True, help="HOST:PORT of the nav_feed's source with `format: km_binary`")
     of.add_argument("--system", type=identity, default=1, help="system id that is followed (default: 1)")
     of.add_argument("--component", type=identity, default=1, help="its component that is followed (default: 1, the autopilot)")
-    of.add_argument("--sender", nargs="+", default=["127.0.0.1"], help="addresses whose datagrams are taken (default: 127.0.0.1)")
+    of.add_argument("--sender", type=sender, nargs="+", default=["127.0.0.1", "::1"],
+                    help="addresses whose datagrams and connections are taken (default: 127.0.0.1 and ::1)")
     of.add_argument("--geoid-above-ellipsoid-m", type=float, default=0.0,
                     help="added to altitudes, which are above mean sea level: the scenario's `geoid_above_ellipsoid_m` (default: 0)")
     return of
+
+
+def family_of(where: Address) -> socket.AddressFamily:
+    return socket.getaddrinfo(where.host, where.port)[0][0]
+
+
+def is_of(senders: list, sender: tuple) -> bool:
+    return sender[0].split("%")[0] in senders
+
+
+def datagrams(incoming: socket.socket, args: argparse.Namespace, counts: collections.Counter) -> Iterator:
+    """What comes, and whether it begins anew: each datagram does."""
+    while True:
+        datagram, sender = incoming.recvfrom(65536)
+        if is_of(args.sender, sender):
+            yield datagram, True
+        else:
+            counts["senders_refused"] += 1
+
+
+def of_connection(connection: socket.socket, counts: collections.Counter) -> Iterator:
+    """The same of one connection, until its end."""
+    counts["connections"] += 1
+    begins = True
+    with connection:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        while True:
+            try:
+                piece = connection.recv(65536)
+            except OSError:
+                return
+            if not piece:
+                return
+            yield piece, begins
+            begins = False
+
+
+def by_server(listener: socket.socket, args: argparse.Namespace, counts: collections.Counter) -> Iterator:
+    """One connection after the other; whoever comes meanwhile waits."""
+    listener.listen(1)
+    while True:
+        connection, sender = listener.accept()
+        if is_of(args.sender, sender):
+            yield from of_connection(connection, counts)
+        else:
+            connection.close()
+            counts["senders_refused"] += 1
+
+
+def by_client(args: argparse.Namespace, counts: collections.Counter, say: Callable[[str], None]) -> Iterator:
+    there = True
+    while True:
+        try:
+            connection = socket.create_connection(args.way.address, timeout=CONNECT_S)
+        except OSError as error:
+            if there:
+                say(f"no connection to {args.way.address}: {error.strerror or error}; tried again every second")
+            there = False
+            time.sleep(TRY_AGAIN_S)
+            continue
+        there = True
+        connection.settimeout(None)
+        say(f"connected to {args.way.address}")
+        yield from of_connection(connection, counts)
+        say(f"the connection to {args.way.address} has ended")
+        time.sleep(TRY_AGAIN_S)
 
 
 def serve(args: argparse.Namespace) -> None:
@@ -281,7 +390,9 @@ def serve(args: argparse.Namespace) -> None:
     def say(text: str) -> None:
         print(text, flush=True)
 
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as incoming, socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as outgoing:
+    server = args.way.name == "tcp_server"
+    with socket.socket(family_of(args.way.address), socket.SOCK_STREAM if server else socket.SOCK_DGRAM) as incoming, \
+            socket.socket(family_of(args.to), socket.SOCK_DGRAM) as outgoing:
         def send(sample: bytes) -> None:
             try:
                 outgoing.sendto(sample, args.to)
@@ -290,15 +401,19 @@ def serve(args: argparse.Namespace) -> None:
 
         join = Join(send, say, args.geoid_above_ellipsoid_m)
         decoder = Decoder(args.system, args.component, join.counts)
-        incoming.bind(args.listen)
-        say(f"receives MAVLink of system {args.system} at {args.listen[0]}:{args.listen[1]}, sends to {args.to[0]}:{args.to[1]}")
+        if args.way.name == "tcp":
+            pieces = by_client(args, join.counts, say)
+        else:
+            if server:
+                incoming.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            incoming.bind(args.way.address)
+            pieces = (by_server if server else datagrams)(incoming, args, join.counts)
+        say(f"receives MAVLink of system {args.system} {'from' if args.way.name == 'tcp' else 'at'} {args.way.address}, sends to {args.to}")
         try:
-            while True:
-                datagram, (sender, _) = incoming.recvfrom(65536)
-                if sender in args.sender:
-                    decoder.take(datagram, join, time.monotonic())
-                else:
-                    join.counts["senders_refused"] += 1
+            for piece, begins in pieces:
+                if begins:
+                    decoder.begin()
+                decoder.take(piece, join, time.monotonic())
         finally:
             say(json.dumps(join.counts))
 
@@ -314,7 +429,7 @@ def main(arguments: list | None = None) -> int:
         print("ensonify.mavlink: needs pymavlink: pip install 'ensonify[mavlink]'", file=sys.stderr)
         return EXIT_BAD_INPUT
     except OSError as error:
-        print(f"ensonify.mavlink: {args.listen[0]}:{args.listen[1]}: {error.strerror}", file=sys.stderr)
+        print(f"ensonify.mavlink: {args.way.address}: {error.strerror}", file=sys.stderr)
         return EXIT_BAD_INPUT
     except KeyboardInterrupt:
         return 0

@@ -169,11 +169,18 @@ class Started(unittest.TestCase):
         self.assertIn("needs pymavlink: pip install 'ensonify[mavlink]'", error)
 
     def test_addresses_and_ids_that_cannot_be_are_refused(self):
-        for option, value, allowed in (("--listen", "tcp:127.0.0.1:1", "udp:HOST:PORT"), ("--listen", "udp:14550", "udp:HOST:PORT"),
+        for option, value, allowed in (("--listen", "ship:127.0.0.1:1", "udp:HOST:PORT or tcp:HOST:PORT"), ("--listen", "udp:14550", "udp:HOST:PORT"),
+                                       ("--listen", "udp:::1:14550", "udp:HOST:PORT"), ("--connect", "udp:[::1]:5760", "tcp:HOST:PORT"),
+                                       ("--sender", "ship", "an address, as 127.0.0.1 or ::1"),
                                        ("--to", "127.0.0.1:70000", "HOST:PORT"), ("--system", "0", "1 to 255"), ("--component", "x", "1 to 255")):
             code, error = self.said("--to", "127.0.0.1:10110", option, value)
             self.assertEqual(code, 2)
             self.assertIn(f"{value}; allowed is {allowed}", error)
+
+    def test_addresses_of_ipv6_stand_in_brackets(self):
+        way = mavlink.connected("tcp:[fd00::7]:5760")
+        self.assertEqual((way.address.host, way.address.port, str(way.address)), ("fd00::7", 5760, "[fd00::7]:5760"))
+        self.assertEqual(mavlink.listened("tcp:127.0.0.1:5760"), ("tcp_server", ("127.0.0.1", 5760)))
 
 
 if __name__ == "__main__":

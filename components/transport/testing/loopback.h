@@ -1,8 +1,5 @@
 #pragma once
 
-#include <netinet/in.h>
-#include <sys/socket.h>
-
 #include <chrono>
 #include <functional>
 #include <string>
@@ -10,6 +7,7 @@
 
 #include "components/transport/descriptor.h"
 #include "components/transport/receiver.h"
+#include "components/transport/socket_address.h"
 
 /// What tests of both ways share.
 namespace ensonify {
@@ -17,11 +15,11 @@ namespace ensonify {
 /// A port of this machine that nobody has.
 inline int free_port(int type) {
   const Descriptor probe(::socket(AF_INET, type, 0));
-  sockaddr_in own = ipv4("127.0.0.1", 0);
-  socklen_t length = sizeof own;
-  if (::bind(probe.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0) return 0;
-  ::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&own), &length);
-  return ntohs(own.sin_port);
+  const SocketAddress own(host_address("127.0.0.1"));
+  if (::bind(probe.get(), own.data(), own.size()) != 0) return 0;
+  SocketAddress given;
+  ::getsockname(probe.get(), given.data(), given.size_given());
+  return given.address().port;
 }
 
 /// Asks until it holds, for five seconds at most.
