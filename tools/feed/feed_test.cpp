@@ -130,6 +130,16 @@ TEST_CASE("a TSS1 sensor's heave is held against its own acceleration") {
   }
 }
 
+TEST_CASE("a sensor whose acceleration is zero throughout says nothing of its heave's sign") {
+  Examiner examiner;
+  for (int i = 0; i < 1500; ++i) {
+    const auto heave_cm = static_cast<int>(std::lround(80.0 * std::sin(2 * kPi * 0.04 * i / 7.0)));
+    examiner.take(fmt::format(":000000 {}{:04d}F 0100  0050\r\n", heave_cm < 0 ? '-' : ' ', std::abs(heave_cm)),
+                  100.0 + 0.04 * i, false);
+  }
+  CHECK_THAT(report_of(examiner.findings(), "serial: /dev/ttyUSB0").text, Catch::Contains("sign of heave: not known"));
+}
+
 TEST_CASE("silence and noise are said plainly") {
   CHECK_THAT(report_of(Findings{}, "udp: 10110").text, Catch::StartsWith("nothing has come"));
   Examiner examiner;

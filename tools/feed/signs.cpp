@@ -92,7 +92,7 @@ std::pair<double, double> first_two(std::size_t, const std::vector<double>& colu
 void judge(Sign& sign, double least) {
   if (!sign.slope || sign.slope->count < kFewest) {
     sign.why = "too few samples with both";
-  } else if (std::abs(sign.slope->value) < std::max(kSure * sign.slope->standard_error, least)) {
+  } else if (std::abs(sign.slope->value) <= std::max(kSure * sign.slope->standard_error, least)) {
     sign.why = "the two do not go together clearly";
   } else {
     sign.is = sign.slope->value > 0.0 ? Sign::Is::kRight : Sign::Is::kReversed;
@@ -174,8 +174,10 @@ Sign heave_by_acceleration(const Findings& found) {
 }  // namespace
 
 std::vector<Sign> signs_of(const Findings& found) {
-  return {roll_by_antenna(found),
-          found.acceleration_mps2.empty() ? heave_by_fixes(found) : heave_by_acceleration(found)};
+  // Sensors that measure none send zeros.
+  const bool accelerates =
+      std::ranges::any_of(found.acceleration_mps2, [](const Sampled& sample) { return sample.value != 0.0; });
+  return {roll_by_antenna(found), accelerates ? heave_by_acceleration(found) : heave_by_fixes(found)};
 }
 
 }  // namespace ensonify::feed_doctor
