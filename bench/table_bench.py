@@ -24,7 +24,7 @@ class Case:
 CASES = [
     Case("multibeam, 256 beams, 2.56 million rays, 50 m, posts 0.1 m", "multibeam", "table", "bow", 2.0, 2_560_000,
          "bench/launch/table_sand.yaml",
-         {"beams": 256, "auto_range": "false", "range_m": 150, "swath_deg": 130, "ping_rate_hz": 5, "quality": 7.2, "amplitude_every": 1000}, (8, 6.5)),
+         {"beams": 256, "auto_range": "false", "range_m": 150, "swath_deg": 130, "ping_rate_hz": 5, "quality": 4, "most_rays": 3_200_000, "amplitude_every": 1000}, (8, 6.5)),
     Case("multibeam, quality 1, 25 m, posts 0.25 m", "multibeam", "table", "bow", 10.0, 80_000, "scenarios/bay/scenario.yaml",
          {"auto_range": "false", "range_m": 75, "ping_rate_hz": 10, "quality": 1, "amplitude_every": 1000}, (110, None)),
     Case("multibeam, quality 0.25, 25 m, posts 0.25 m", "multibeam", "table", "bow", 20.0, 20_000, "scenarios/bay/scenario.yaml",
@@ -73,6 +73,6 @@ def bench_table(b):
             once = sorted(measured(b, case, wind_mps) for _ in range(max(1, b.repeat // 2)))
             pings, processor_ms, rays, ray_ns = once[len(once) // 2]
             text = f"{case.name}, {name} ({rays:,.0f} rays; {processor_ms:.1f} ms of a core, {ray_ns:.0f} ns a ray)"
-            rows.append(row(text, pings, "pings/s", target=f"{goal}" if goal else "", ok=True) | {
+            rows.append(row(text, pings, "pings/s", target=f"goal {goal}" if goal else "", ok=not goal or pings >= goal) | {
                 "case": case.name, "sea": name, "rays": rays, "processor_ms": processor_ms, "goal": goal})
     return rows

@@ -31,7 +31,7 @@ constexpr double kPlaneStep_m = 0.25,
 constexpr auto kFewestToPlaces = static_cast<std::size_t>(RaySettings::kToPlaces);
 
 constexpr double kSpare = 1.01;          // of the fewest rays
-constexpr double kMostKept = 262'144.0;  // rays of a plan, 4 MB
+constexpr double kMostKept = 524'288.0;  // rays of a plan, 8 MB
 
 void check(const Span& span, double lowest, double highest, const char* fault) {
   const bool rises = lowest <= span.low && span.low <= span.main_low && span.main_low < span.main_high &&
