@@ -18,6 +18,9 @@ configurations), `bench/publish.py FILE` writes this page, and `bench/compare.py
 |---|---|---|---|---|---|---|
 """
 TAIL = """
+**A faster picture**: `most_rays` of a head bounds the rays of a transmission; beyond it all parts give way alike. The row of 128 beams is
+`{{ beams: 128, most_samples: 256, range_m: 20, most_rays: 21000 }}`. `quality` is the number of rays that cells of
+resolution and facets ask for: 0.25 for a look, 1 to trust levels. `bench/equal.py` says by how much a setting differs from `quality: reference`.
 {cpu}, {cores} cores, commit {commit}.{note} What each stage of a ping takes is shown by `ensonify run --profile` ([benchmarks](manual/benchmarks.md)); what made stages fast, and what
 did not, is in [decisions](decisions/speed.md). Absolute times belong to a machine and its load.
 """
