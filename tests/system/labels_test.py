@@ -7,6 +7,7 @@ import unittest
 from unittest import mock
 
 import numpy as np
+import yaml
 
 import ensonify
 from ensonify import labels
@@ -21,6 +22,13 @@ def rotation(wxyz):
     return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                      [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def distance_m(place, start, end):
+    """Of a place from a straight leg."""
+    along = (end - start) / np.linalg.norm(end - start)
+    off = place - start
+    return np.linalg.norm(off - np.clip(off @ along, 0, np.linalg.norm(end - start)) * along)
 
 
 class Labels(SystemTest):
@@ -67,6 +75,21 @@ class Labels(SystemTest):
         run = subprocess.run(command, capture_output=True, text=True, timeout=120)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(json.loads(run.stdout)["pictures"], len(pairs))
+
+    def test_sections_of_a_laid_cable_are_labelled_where_its_route_goes(self):
+        result = self.run_launch(SOURCE / "launch/cable.yaml", "--free", "--arg", "seconds=12", "--set", "side.quality=0.1", timeout=200)
+        with ensonify.Record(result.out / "cable.mcap") as record:
+            seen = [(of, place, thing) for _, _, of in record.messages("side/labels_main") for place, thing in enumerate(of.objects)
+                    if thing.class_name == "cable" and thing.visible > 0]
+        self.assertGreater(len({thing.instance for _, _, thing in seen}), 4)
+        routes = {name: np.array(yaml.safe_load((SOURCE / "scenarios/cable_route/scenario.yaml").read_text())["objects"][name]["laid"]["through_m"])
+                  for name in ("cable", "old_cable")}
+        # A section that only enters the beam has no mask yet.
+        self.assertGreater(np.mean([labels.mask(of, place).any() for of, place, _ in seen]), 0.5)
+        for _, _, thing in seen:
+            route = routes[thing.name.rsplit("_", 1)[0]]
+            # On its surface: within its radius of 0.1 m of a leg, seen from above, and 1 cm for rounding.
+            self.assertLess(min(distance_m(np.array(thing.hit_enu_m)[:2], *leg) for leg in zip(route, route[1:])), 0.11, thing.name)
 
     def test_a_live_data_set_repeats_no_scene(self):
         live = Live(SOURCE / "launch/object_training.yaml", "side/ping_main", ["clutter", "mine-like"], scenes=2, lines=64,
