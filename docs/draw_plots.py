@@ -5,6 +5,7 @@
 
 The records are those of launch/demo.yaml, of docs/manual/first-survey.md with `amplitude_every: 1`, and of the launches named like them.
 """
+import os
 import pathlib
 import sys
 import tempfile
@@ -46,11 +47,13 @@ def draw_all(demo, survey, ahead, around, aside, targets):
     draw("plot_waterfall_ground", "waterfall", aside, "--ground")
     draw("plot_angular_response", "angular-response", demo)
     draw("targets_fls", "fls", targets)
-    draw("targets_scene", "scene", DOCS.parent / "scenarios/targets/scenario.yaml", "--record", targets)
-    draw("object_shapes", "scene", DOCS.parent / "scenarios/object_shapes/scenario.yaml")
+    draw("targets_scene", "scene", "scenarios/targets/scenario.yaml", "--record", targets)
+    draw("object_shapes", "scene", "scenarios/object_shapes/scenario.yaml")
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 7:
         sys.exit(__doc__)
-    draw_all(*sys.argv[1:])
+    records = [os.path.abspath(record) for record in sys.argv[1:]]
+    os.chdir(DOCS.parent)  # scenarios by the names that pages give
+    draw_all(*records)
