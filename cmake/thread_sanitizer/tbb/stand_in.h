@@ -169,4 +169,69 @@ Value parallel_deterministic_reduce(const blocked_range<Index>& range, const Val
   return detail::combine(range, values, next, both);
 }
 
+class flow_control {
+ public:
+  void stop() { stopped_ = true; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  bool stopped_ = false;
+};
+
+enum class filter_mode { parallel, serial_in_order };
+
+/// A stage of a pipeline; In is void of the first, Out of the last.
+template <class In, class Out, class Function>
+struct filter {
+  Function function;
+};
+template <class In, class Out, class Function>
+filter<In, Out, Function> make_filter(filter_mode, const Function& function) {
+  return {function};
+}
+
+/// The one form that the project has: a source in order, work on several at a time, an end in order.
+template <class Token, class Source, class Work>
+struct two_filters {
+  Source source;
+  Work work;
+};
+template <class Token, class Result, class First, class Second>
+auto operator&(const filter<void, Token, First>& source, const filter<Token, Result, Second>& work) {
+  return two_filters<Token, First, Second>{source.function, work.function};
+}
+template <class Token, class Source, class Work, class End>
+struct three_filters {
+  Source source;
+  Work work;
+  End end;
+};
+template <class Token, class Result, class First, class Second, class Third>
+auto operator&(const two_filters<Token, First, Second>& before, const filter<Result, void, Third>& end) {
+  return three_filters<Token, First, Second, Third>{before.source, before.work, end.function};
+}
+
+/// While one comes to its end, others are worked on: never more than so many in all.
+template <class Token, class Source, class Work, class End>
+void parallel_pipeline(std::size_t most, const three_filters<Token, Source, Work, End>& stages) {
+  using Result = decltype(stages.work(std::declval<Token>()));
+  std::vector<Result> ready;
+  flow_control flow;
+  do {
+    std::vector<Token> tokens;
+    while (!flow.stopped() && ready.size() + tokens.size() < most) {
+      Token token = stages.source(flow);
+      if (!flow.stopped()) tokens.push_back(token);
+    }
+    const std::size_t ending = ready.empty() ? 0 : 1;
+    std::vector<Result> worked(tokens.size());
+    detail::run(ending + tokens.size(), [&](std::size_t i) {
+      if (i < ending) stages.end(ready.front());
+      else worked[i - ending] = stages.work(tokens[i - ending]);
+    });
+    if (ending > 0) ready.erase(ready.begin());
+    ready.insert(ready.end(), worked.begin(), worked.end());
+  } while (!ready.empty() || !flow.stopped());
+}
+
 }  // namespace tbb

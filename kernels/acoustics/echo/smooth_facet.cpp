@@ -86,7 +86,8 @@ Complex lit_integral_m2(const Place& a, const Place& b, const Place& c, const Ve
 
 /// The same over all of a facet: over as many flat parts as stand for a curved one.
 Complex lit_integral_m2(const Facet& facet, const Vec3& towards_head, const Vec3& per_m, bool two_sided) {
-  const auto& [corner, bulge_m] = facet;
+  const auto& corner = facet.corners;
+  const auto& bulge_m = facet.bulge_m;
   const Vec3 middle = middle_of(facet);
   if (bulge_m == std::array<double, 3>{}) {
     const auto place = [&](std::size_t c) { return Place(corner[c] - middle, per_m); };
