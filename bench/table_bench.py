@@ -1,7 +1,7 @@
 """The table of speed (docs/performance.md): pings per second of wall time in a free run, and what a ping costs.
 
 Each row is a configuration that others publish or that a launch file ships, windy (5 m/s, no path by the surface) and calm (with echoes
-by way of the surface). Counted are the pings; the rays of a ping are asserted before its speed is believed.
+by way of the surface). Pings are counted, and the rays of a ping asserted, before a speed is stated.
 """
 from dataclasses import dataclass, field
 

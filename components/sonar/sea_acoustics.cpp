@@ -96,7 +96,8 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
   // While one batch is merged the next ones are traced. Merged are they in their order, whoever is ready first.
   std::size_t next = 0;
   const std::size_t batches = (memory.plan.rays() + shot.rays_per_batch - 1) / shot.rays_per_batch;
-  const std::size_t ahead = profile::measured() ? 1 : ShotMemory::kAhead;  // stages that overlap cannot be told apart
+  const std::size_t ahead =
+      profile::measured() ? 1 : ShotMemory::kAhead;  // stages that overlap have no processor time of their own
   tbb::parallel_pipeline(ahead, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
                                                                     [&](tbb::flow_control& flow) {
                                                                       if (next == batches) flow.stop();

@@ -12,6 +12,7 @@
 
 using namespace ensonify;
 using namespace ensonify::source;
+using Catch::WithinAbs;
 using frames::Vec2;
 using frames::Vec3;
 
@@ -72,10 +73,10 @@ TEST_CASE("a limp cable follows the seabed within 2 cm, section joined to sectio
     CHECK(lowest_m > -0.02);
     CHECK(lowest_m < 0.02);
     CHECK(highest_m < 0.1 + 0.02);
-    if (west_m >= 0.0) CHECK(first_m == Approx(west_m).margin(0.06));
+    if (west_m >= 0.0) CHECK_THAT(first_m, WithinAbs(west_m, 0.06));
     west_m = last_m;
   }
-  CHECK(west_m == Approx(20.0).margin(0.06));
+  CHECK_THAT(west_m, WithinAbs(20.0, 0.06));
 }
 
 TEST_CASE("a taut cable spans from crest to crest, and half of a buried one is in the seabed") {
@@ -89,15 +90,15 @@ TEST_CASE("a taut cable spans from crest to crest, and half of a buried one is i
   ObjectMeshes others;
   const PlacedObject half = placed_object(sections(solids::Cable{0.1}, {{0, 0}, {20, 0}}, 0.0, 0.5)[1], others,
                                           Ground([](const Vec2&) { return -10.0; }));
-  CHECK(half.box_enu_m.max().z() == Approx(-9.95).margin(1e-3));
-  CHECK(half.message.buried == Approx(0.5).margin(0.01));
+  CHECK_THAT(half.box_enu_m.max().z(), WithinAbs(-9.95, 1e-3));
+  CHECK_THAT(half.message.buried, WithinAbs(0.5, 0.01));
 }
 
 TEST_CASE("a laid chain lies on the ground with links side by side") {
   ObjectMeshes meshes;
   const PlacedObject placed = placed_object(sections(solids::Chain{0.05}, {{0, 0}, {0, 20}})[0], meshes,
                                             Ground([](const Vec2&) { return -8.0; }));
-  CHECK(placed.box_enu_m.min().z() == Approx(-8.0).margin(0.03));
+  CHECK_THAT(placed.box_enu_m.min().z(), WithinAbs(-8.0, 0.03));
   CHECK(placed.surface.mesh.triangle.size() > 1000);
 }
 

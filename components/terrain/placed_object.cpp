@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "components/config/config_error.h"
@@ -94,7 +95,9 @@ void refuse(const SceneObject& object, const std::string& why) {
   throw ConfigError({ConfigProblem{object.written, "objects." + object.name, why}});
 }
 
-PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, const TerrainSource& ground) {
+namespace {
+
+PlacedObject placed(const SceneObject& object, ObjectMeshes& meshes, const TerrainSource& ground) {
   const frames::Vec2 place = object.place.position_enu_m.head<2>();
   const Extent known = ground.extent();
   if (!known.contains(place))
@@ -134,6 +137,16 @@ PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, cons
                                "what shows something above it",
                                ground_m, top_m));
   return placed;
+}
+
+}  // namespace
+
+PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, const TerrainSource& ground) {
+  try {
+    return placed(object, meshes, ground);
+  } catch (const std::invalid_argument& error) {
+    refuse(object, error.what());
+  }
 }
 
 }  // namespace ensonify::source

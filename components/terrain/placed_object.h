@@ -19,7 +19,8 @@ struct PlacedObject {
 
 /// On the seabed an object lies in balance on the heights of `ground`, or is so deep that the wanted share of its
 /// volume lies below the height at its middle. A shape from a file comes from `meshes`. Throws ConfigError, with its
-/// place in the scenario, for one that stands beside `ground` or over a hole in it, or that is wholly below it.
+/// place in the scenario, for one that stands beside `ground` or over a hole in it, that is wholly below it, or that
+/// takes too many triangles.
 PlacedObject placed_object(const SceneObject& object, ObjectMeshes& meshes, const TerrainSource& ground);
 
 /// Throws ConfigError of that object.

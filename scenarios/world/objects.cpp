@@ -209,6 +209,15 @@ std::vector<SceneObject> ObjectKeys::objects(const ConfigReader& from, std::uint
     from.problem(key + ".laid", "has its length and heights by its way; allowed: no length_m, no sag_m");
   if (!lies && line && !(length_m > 0.0))
     from.problem(key, "needs length_m, the distance between its ends, unless it is laid");
+  if (std::holds_alternative<solids::Chain>(object.solid)) {
+    constexpr double kMostLinks = 1500.0, kPitch = 4.0;  // in diameters of the wire
+    const double wire_m = solids::sizes_of(object.solid)[0];
+    const double links = (lies ? std::get<ObjectLaid>(where).keys.section_m : length_m) / (kPitch * wire_m);
+    if (links > kMostLinks)
+      from.problem(key + ".chain.wire_m", fmt::format("{:g} makes {:.0f} links; allowed are {:.0f} in a chain, or in a "
+                                                      "section of a laid one",
+                                                      wire_m, links, kMostLinks));
+  }
   if (lies) return laid(std::get<ObjectLaid>(where).keys, object);
   if (const auto* many = std::get_if<ObjectStrewn>(&where)) {
     object.place.rests = !many->keys.burial && !tilt_rad;

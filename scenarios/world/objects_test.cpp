@@ -178,6 +178,9 @@ TEST_CASE("laid lines with a mistake are refused with their place") {
   says("cable: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [3000, 0]], section_m: 0.1}", "makes 30000 sections");
   says("cable: {diameter_m: 0.1}, position_m: [0, 0, -5]", "objects.a: needs length_m");
   says("cable: {diameter_m: 0.1, length_m: 4}, laid: {through_m: [[0, 0], [1, 0]]}", "allowed: no length_m, no sag_m");
+  says("chain: {wire_m: 0.001, length_m: 100}, position_m: [0, 0, -5]",
+       "objects.a.chain.wire_m: 0.001 makes 25000 links");
+  says("chain: {wire_m: 0.001}, laid: {through_m: [[0, 0], [9, 0]], section_m: 9}", "makes 2250 links");
   says("sphere: {diameter_m: 0.1}, laid: {through_m: [[0, 0], [1, 0]]}",
        "is for a cable or a chain, and it is a sphere");
 }

@@ -52,14 +52,19 @@ class BentPacket {
     double max_length_m, slowness_spm;
   };
 
-  /// Rays first..first + count - 1, at the level. False where one of them is not served.
+  /// Rays first..first + count - 1, at the level. False where one of them is not served: then none is.
   bool aim(const Source& source, const Rays& rays, std::size_t first, std::size_t count);
 
-  /// Their chords through the layer that they come to, as lanes of a packet. False where one of them needs more.
+  /// Their chords through the layer that they come to, as lanes of a packet. False where one of them needs more: then
+  /// those that have hit nothing so far (left()) are to be traced otherwise. So what a ray hits, to the bit, never
+  /// depends on what others hit.
   bool cross(const Source& source, Packet& packet);
 
   /// What they hit there, into their rows; those that hit something in the first layer, or nothing, have theirs anew.
   void note(const Source& source, const Packet& packet, Hits& hits) const;
+
+  /// Of the lanes: which have hit nothing so far.
+  const std::array<std::int32_t, kPacket>& left() const { return on_; }
 
   /// On to the next layer; false where there is none, or all have hit something.
   bool go_on(const Source& source, const Packet& packet);

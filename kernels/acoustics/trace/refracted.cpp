@@ -105,18 +105,21 @@ Hit hit_of(const Packet& packet, std::size_t lane_index, const Lane& lane, const
   return hit;
 }
 
-/// False where one of these rays needs more than one chord a layer, or more than the table.
-bool trace_side_by_side(const BentPacket::Source& source, const Rays& rays, std::size_t first, std::size_t count,
-                        const PartTree& tree, PartTree::Of of, Hits& hits) {
+using Lanes = std::array<std::int32_t, kPacket>;  // 0: not this one
+
+/// The lanes that are left: all where one needs more than the table, those that go on where one of the packet needs
+/// more than one chord a layer.
+Lanes trace_side_by_side(const BentPacket::Source& source, const Rays& rays, std::size_t first, std::size_t count,
+                         const PartTree& tree, PartTree::Of of, Hits& hits) {
   BentPacket bent;
-  if (!bent.aim(source, rays, first, count)) return false;
+  if (!bent.aim(source, rays, first, count)) return bent.left();
   Packet packet;
   do {
-    if (!bent.cross(source, packet)) return false;
+    if (!bent.cross(source, packet)) return bent.left();
     packet.intersect(tree, of);
     bent.note(source, packet, hits);
   } while (bent.go_on(source, packet));
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -156,13 +159,16 @@ void Mesh::trace(const frames::HeadPose& head, const Rays& rays, float max_range
 
   const auto trace_packet = [&](std::size_t index) {
     const std::size_t first = index * kPacket, count = std::min(kPacket, rays.size() - first);
-    if (side_by_side && trace_side_by_side(source, rays, first, count, tree, of, hits)) return;
+    Lanes left{};
+    std::fill_n(left.begin(), count, -1);
+    if (side_by_side) left = trace_side_by_side(source, rays, first, count, tree, of, hits);
+    if (left == Lanes{}) return;
     std::array<std::optional<Lane>, kPacket> lanes;
     std::array<Vec3, kPacket> from;
     Packet packet;
     std::size_t alive = 0;
     for (std::size_t lane = 0; lane < kPacket; ++lane) {
-      if (lane >= count) {
+      if (left[lane] == 0) {
         packet.switch_off(lane);
         continue;
       }

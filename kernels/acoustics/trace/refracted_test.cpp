@@ -105,6 +105,7 @@ TEST_CASE("on relief in a gradient every hit lies on its path and no ray slips t
     const auto exact = path_at_horizontal(water, 2, depression(rays[i]), std::hypot(off.x(), off.y()));
     REQUIRE_THAT((exact.depth_m + hits[i].position_enu_m.z()) * std::cos(exact.depression_rad), WithinAbs(0, 1e-3));
     REQUIRE(hits[i].travel_time_s == Approx(exact.travel_time_s).epsilon(1e-6).margin(1e-3 / 1500));
+    REQUIRE(hits[i].tube_m2 == Approx(exact.tube_m2).epsilon(1e-4));  // through the knot at 76 m too
   }
 }
 
@@ -188,6 +189,37 @@ TEST_CASE("a bent ray continued behind a contributor hits what stands behind it"
     REQUIRE_THAT(behind[i].position_enu_m.z(), WithinAbs(-80, 1e-3));
     REQUIRE(behind[i].travel_time_s == Approx(alone[i].travel_time_s).epsilon(1e-6));
   }
+}
+
+/// A shelf in the west, a deep floor in the east; with a mound of a few metres on its way down or without.
+static double shelf(double x, double) { return x < 40.0 ? -20.0 : -60.0; }
+static double shelf_and_mound(double x, double y) {
+  return shelf(x, y) + (x > 60.0 && x < 100.0 && std::abs(y + 4.0) < 30.0 ? 30.0 : 0.0);
+}
+
+TEST_CASE("what a bent ray hits does not depend, to the bit, on what others of its packet hit") {
+  // Below 35 m the speed rises so steeply that flat paths turn: where one of a packet goes on to there, it needs more
+  // than a chord a layer. The mound keeps those rays above that depth, and must change no bit of the others.
+  const SoundSpeedProfile water({{0, 1500}, {20, 1500}, {35, 1500}, {60, 1600}});
+  Rays rays;
+  for (int i = 0; i < 4000; ++i)  // neighbours go to the shelf, and to the deep
+    rays.push_back(ray(i % 2 == 0 ? -1.5 : 1.6 + 0.02 * std::sin(i), (14 + 0.003 * i) * kDeg));
+  const Hits without = trace(seabed(shelf), water, rays), with = trace(seabed(shelf_and_mound), water, rays);
+  int same = 0, hidden = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!without[i].hit() || without[i].position_enu_m.z() < -21.0) {
+      hidden += with[i].hit() && with[i].position_enu_m.z() > -35.0 ? 1 : 0;
+      continue;
+    }
+    REQUIRE(without[i].position_enu_m == with[i].position_enu_m);
+    REQUIRE(without[i].travel_time_s == with[i].travel_time_s);
+    REQUIRE(without[i].path_length_m == with[i].path_length_m);
+    REQUIRE(without[i].tube_m2 == with[i].tube_m2);
+    REQUIRE(without[i].sin_grazing == with[i].sin_grazing);
+    ++same;
+  }
+  CHECK(same > 1000);
+  CHECK(hidden > 100);
 }
 
 TEST_CASE("bent rays are the same bits for any number of threads") {

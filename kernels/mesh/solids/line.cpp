@@ -13,19 +13,22 @@ namespace {
 
 using frames::Vec3;
 
-constexpr double kFewestSides = 8.0, kMostTriangles = 1e6;
+constexpr double kFewestSides = 8.0, kMostSides = 100.0, kMostSidesOfLink = 16.0, kMostTriangles = 1e6;
+constexpr int kMostPieces = 4000, kMostPartsOfLink = 8;              // of a catenary, of half a link's round
 constexpr double kPitch = 4.0, kLinkLength = 6.0, kLinkWidth = 3.6;  // of a chain's links, in diameters of its wire
 
-double sides_of(double radius_m, double sagitta_m) {
-  return std::max(kFewestSides,
-                  std::ceil(std::numbers::pi / std::acos(std::max(0.5, 1.0 - sagitta_m / std::max(radius_m, 1e-9)))));
+double sides_of(double radius_m, double sagitta_m, double most) {
+  const double half_rad = std::acos(std::max(0.5, 1.0 - sagitta_m / std::max(radius_m, 1e-9)));
+  return std::clamp(std::ceil(std::numbers::pi / half_rad), kFewestSides, most);
 }
 
 /// Rings of sides about the points of a line, and the faces between them.
 class Sweep {
  public:
-  Sweep(Surface& surface, double radius_m, double sagitta_m)
-      : surface_(surface), radius_m_(radius_m), sides_(static_cast<std::uint32_t>(sides_of(radius_m, sagitta_m))) {}
+  Sweep(Surface& surface, double radius_m, double sagitta_m, double most_sides)
+      : surface_(surface),
+        radius_m_(radius_m),
+        sides_(static_cast<std::uint32_t>(sides_of(radius_m, sagitta_m, most_sides))) {}
 
   void rope(std::span<const Vec3> line_m) {
     require_room(line_m.size());
@@ -138,8 +141,8 @@ class Way {
 /// The middle line of a link about the origin, along x, wide along y.
 std::vector<Vec3> link(double wire_m, double sagitta_m) {
   const double round_m = 0.5 * (kLinkWidth - 1.0) * wire_m, straight_m = 0.5 * (kLinkLength - kLinkWidth) * wire_m;
-  const int parts = std::max(
-      4, static_cast<int>(std::ceil(0.5 * std::numbers::pi / std::acos(std::max(0.5, 1.0 - sagitta_m / round_m)))));
+  const double half_rad = std::acos(std::max(0.5, 1.0 - sagitta_m / round_m));
+  const int parts = std::clamp(static_cast<int>(std::ceil(0.5 * std::numbers::pi / half_rad)), 4, kMostPartsOfLink);
   std::vector<Vec3> line;
   for (const double end : {1.0, -1.0}) {
     for (int i = 0; i <= parts; ++i) {
@@ -170,8 +173,7 @@ std::vector<Vec3> catenary(double length_m, double sag_m, double sagitta_m) {
   }
   const double parameter_m = half_m / high, arc_m = 2.0 * parameter_m * std::sinh(high);
   const double wanted = std::ceil(arc_m / std::sqrt(8.0 * parameter_m * sagitta_m));
-  require(wanted < kMostTriangles, "line: takes more than a million triangles: allow a greater sagitta");
-  const int pieces = std::max(2, static_cast<int>(wanted));
+  const int pieces = static_cast<int>(std::clamp(wanted, 2.0, static_cast<double>(kMostPieces)));
   std::vector<Vec3> line;
   for (int i = 0; i <= pieces; ++i) {
     const double u = std::asinh((static_cast<double>(i) / pieces - 0.5) * arc_m / parameter_m);
@@ -209,7 +211,7 @@ std::vector<double> laid_heights(std::span<const double> along_m, std::span<cons
 Surface rope_along(std::span<const Vec3> line_m, double diameter_m, double sagitta_m) {
   require(diameter_m > 0.0 && line_m.size() > 1, "line: its diameter is not above 0 m, or it has no two points");
   Surface surface;
-  Sweep(surface, 0.5 * diameter_m, sagitta_m).rope(line_m);
+  Sweep(surface, 0.5 * diameter_m, sagitta_m, kMostSides).rope(line_m);
   return surface;
 }
 
@@ -233,7 +235,7 @@ Surface chain_along(std::span<const Vec3> line_m, double wire_m, double sagitta_
     if (i % 2 == 1) turn = turn * Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
     std::vector<Vec3> placed;
     for (const Vec3& point : one) placed.push_back(middle + turn * point);
-    Sweep(surface, 0.5 * wire_m, sagitta_m).loop(placed);
+    Sweep(surface, 0.5 * wire_m, sagitta_m, kMostSidesOfLink).loop(placed);
   }
   return surface;
 }
