@@ -49,6 +49,17 @@ std::size_t Findings::sentences() const {
   return count;
 }
 
+const char* word_of(Findings::Format format) {
+  switch (format) {
+    case Findings::Format::kNmea: return "nmea";
+    case Findings::Format::kTss1: return "tss1";
+    case Findings::Format::kEmAttitude: return "em_attitude";
+    case Findings::Format::kKmBinary: return "km_binary";
+    case Findings::Format::kNone: break;
+  }
+  return "";
+}
+
 void Examiner::take(std::string_view bytes, std::optional<double> unix_s, bool whole) {
   unix_s_ = unix_s;
   found_.bytes += bytes.size();

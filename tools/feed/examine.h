@@ -55,6 +55,9 @@ struct Findings {
   std::size_t sentences() const;
 };
 
+/// As nav_feed's sources have it; "" where none is known.
+const char* word_of(Findings::Format format);
+
 /// Takes what arrives, in any of the formats that nav_feed knows: which one it is, its frames say.
 class Examiner {
  public:
