@@ -30,7 +30,8 @@ std::string FedTrack::trouble(SimTime now) const {
   const double t_s = delayed_s(now);
   std::string causes;
   if (!east_m_.empty() && trial_.is_on()) add_cause(causes, jump_ + ": not followed unless three fixes in a row agree");
-  if (!trial_.is_on() && t_s < jumped_at_s_) add_cause(causes, jump_ + ": the vehicle has not come there yet");
+  if (!jump_.empty() && !trial_.is_on() && t_s < jumped_at_s_)
+    add_cause(causes, jump_ + ": the vehicle has not come there yet");
   add_cause(causes, refusal_);
   add_cause(causes, lack_of_fixes(t_s));
   if (now - date_jumped_at_ < kDateJumpIsNamed) add_cause(causes, date_jump_);

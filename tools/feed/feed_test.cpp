@@ -132,6 +132,25 @@ TEST_CASE("bytes of a feed that are no UTF-8 do not break the JSON") {
   CHECK(nlohmann::json::accept(json_of(found, report_of(found, "udp: 10110"), {})));
 }
 
+TEST_CASE("dates of a week that rolled over are to be corrected; those of an old log are not") {
+  constexpr double kDay_s = 86400.0, kNoon_s = 20000.5 * kDay_s;  // of 4 October 2024
+  const auto faults_of = [&](const char* date, double off_days) {
+    Examiner examiner;
+    for (int i = 0; i < 10; ++i)
+      examiner.take(nmea::sentence(fmt::format("GPZDA,1200{:02d}.00,{},00,00", i, date)), kNoon_s + i, true);
+    const Findings found = examiner.findings();
+    CHECK(found.dates_ahead_days.at(std::lround(off_days)) == 10);
+    return report_of(found, "udp: 10110").faults;
+  };
+  CHECK(faults_of("04,10,2024", 0).empty());
+  CHECK(faults_of("03,10,2024", -1).empty());
+  const auto faults = faults_of("18,02,2005", -7168);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0] ==
+        "dates: 10 are 7168 days behind the clock at arrival: the receiver's week has rolled over; nav_feed uses no "
+        "dates");
+}
+
 TEST_CASE("bad checksums, half lines and repeats are counted") {
   Examiner examiner;
   for (int i = 0; i < 10; ++i) {

@@ -12,8 +12,9 @@
 namespace ensonify::feed_doctor {
 namespace {
 
-constexpr double kGpsAhead_s = 18.0;  // of UTC, since 2017
-constexpr double kClose_s = 5.0;      // a clock is right within this
+constexpr double kGpsAhead_s = 18.0;   // of UTC, since 2017
+constexpr double kClose_s = 5.0;       // a clock is right within this
+constexpr long kRollover_days = 7168;  // 1,024 weeks, which is what ten bits count
 
 std::string text_of(const std::optional<Rhythm>& rhythm) {
   if (!rhythm) return "-";
@@ -99,6 +100,13 @@ Report report_of(const Findings& found, const std::string& way) {
   for (const std::string& datum : found.datums) {
     if (datum == "W84") say("datum: W84");
     else fault(fmt::format("datum: {}; set the receiver to WGS 84", datum));
+  }
+  for (const auto& [days, count] : found.dates_ahead_days) {
+    if (days == 0) continue;
+    const std::string line = fmt::format("dates: {} are {} days {} the clock at arrival", count, std::abs(days),
+                                         days > 0 ? "ahead of" : "behind");
+    if (days % kRollover_days == 0) fault(line + ": the receiver's week has rolled over; nav_feed uses no dates");
+    else say(line + ", as in a log that is sent again; nav_feed uses no dates");
   }
   const Scale scale = scale_of(found);
   report.time_scale = scale.word;

@@ -38,7 +38,7 @@ Json object_of(const Sign& sign) {
 }  // namespace
 
 std::string json_of(const Findings& found, const Report& report, const Reception& reception) {
-  Json kinds = Json::array(), qualities = Json::object(), signs = Json::array();
+  Json kinds = Json::array(), qualities = Json::object(), signs = Json::array(), dates = Json::object();
   for (const auto& [name, kind] : found.kinds) {
     kinds.push_back({{"kind", name},
                      {"count", kind.count},
@@ -47,6 +47,7 @@ std::string json_of(const Findings& found, const Report& report, const Reception
                      {"own_times", object_of(rhythm_of(kind.own_s, formats::kDay_s))}});
   }
   for (const auto& [quality, count] : found.qualities) qualities[std::to_string(quality)] = count;
+  for (const auto& [days, count] : found.dates_ahead_days) dates[std::to_string(days)] = count;
   for (const Sign& sign : report.signs) signs.push_back(object_of(sign));
   const Json all{{"faults", report.faults},
                  {"source", or_null(report.source)},
@@ -61,6 +62,7 @@ std::string json_of(const Findings& found, const Report& report, const Reception
                  {"unusable", found.unusable},
                  {"fixes_by_quality", qualities},
                  {"datums", found.datums},
+                 {"dates_by_days_ahead", dates},
                  {"time_scale", or_null(report.time_scale)},
                  {"time_scale_why", or_null(report.time_scale_why)},
                  {"signs", signs},
