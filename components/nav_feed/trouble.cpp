@@ -17,8 +17,8 @@ void add_cause(std::string& causes, const std::string& cause) {
 
 std::string FedTrack::lack_of_fixes(double t_s) const {
   if (east_m_.empty()) {
-    return trial_.is_on() ? "no place yet: a first fix counts when three in a row agree"
-                          : "no place yet: no fix has come";
+    if (trial_.is_on()) return "no place yet: a first fix counts when three in a row agree";
+    return refusal_.empty() ? "no place yet: no fix has come" : "no place yet";
   }
   const double since_s = t_s - east_m_.newest_s();
   if (since_s <= 0.0) return "";
