@@ -1,6 +1,8 @@
 #include "components/nav_feed/fed_track.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "components/errors/overloaded.h"
 #include "components/formats/time_of_day.h"
@@ -20,6 +22,15 @@ constexpr SimTime kGgaIsGone = std::chrono::seconds(5);
 /// Zero where nothing has come.
 motion::Moving value_at(const motion::GappedCurve& curve, double t_s) {
   return curve.empty() ? motion::Moving{} : curve.at(t_s);
+}
+
+/// Where a fix would be with latitude and longitude the other way round: with their signs, or where the letters of the
+/// hemispheres stayed. Nothing where the longitude is no latitude.
+std::vector<frames::Geodetic> swapped(const nmea::Fix& fix) {
+  const double latitude_deg = fix.longitude_deg, longitude_deg = fix.latitude_deg;
+  if (std::abs(latitude_deg) > 90.0) return {};
+  return {{latitude_deg, longitude_deg},
+          {std::copysign(latitude_deg, fix.latitude_deg), std::copysign(longitude_deg, fix.longitude_deg)}};
 }
 
 }  // namespace
@@ -83,8 +94,7 @@ void FedTrack::use_fix(nmea::Fix fix, const Origin& origin) {
   const ArrivedFix found = arrived(fix, origin);
   const double off_m = found.position_enu_m.head<2>().norm();
   if (!(off_m < kFarAway_m)) {
-    const bool may_swap = std::abs(fix.longitude_deg) <= 90.0;
-    if (may_swap && world_.enu_of({fix.longitude_deg, fix.latitude_deg}).norm() < kFarAway_m) {
+    if (std::ranges::any_of(swapped(fix), [&](const auto& at) { return world_.enu_of(at).norm() < kFarAway_m; })) {
       return refuse("fixes_with_latitude_and_longitude_swapped", "latitude and longitude are swapped");
     }
     return refuse("fixes_far_from_the_site", "fixes are " + distance_text(off_m) + " from the site");

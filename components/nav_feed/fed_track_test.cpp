@@ -176,11 +176,20 @@ TEST_CASE("fixes that cannot be used at all are named until one can be") {
   fed.feed.take(sentence("GPGGA,000148.000,0922.2000,S,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(8));
   CHECK(fed.counts["fixes_with_latitude_and_longitude_swapped"] == 1);
   CHECK(fed.feed.trouble(at_s(8)) == "latitude and longitude are swapped: not taken");
+  fed.feed.take(sentence("GPGGA,000148.500,0922.2000,N,05312.6000,W,4,12,0.7,1.0,M,50,M,,"), at_s(8.5));
+  CHECK(fed.counts["fixes_with_latitude_and_longitude_swapped"] == 2);  // the letters stayed where they were
+  CHECK(fed.feed.trouble(at_s(8.5)) == "latitude and longitude are swapped: not taken");
   fed.feed.take(sentence("GPGGA,000149.000,4922.2000,N,05312.6000,E,4,12,0.7,1.0,M,50,M,,"), at_s(9));
   CHECK(fed.feed.trouble(at_s(9)).find("km from the site: not taken") != std::string::npos);
   fed.feed.take(fix(110, 0.0, 0.0) + fix(110, 0.0, 0.0), at_s(10));
   CHECK(fed.counts["fixes_double"] == 1);
   CHECK(fed.feed.trouble(at_s(10)) == "");
+}
+
+TEST_CASE("fixes of which none can be used are not called absent") {
+  Fed fed;
+  fed.feed.take(sentence("GPDTM,999,,0.08,N,0.07,E,-47.7,W84") + fix(106, 0.0, 0.0), at_s(0));
+  CHECK(fed.feed.trouble(at_s(0)) == "fixes are on datum 999, not W84: not taken; no place yet");
 }
 
 TEST_CASE("what a motion sensor leaves blank or calls invalid is held, never zero") {

@@ -123,6 +123,12 @@ TEST_CASE("a day without dates, midnight and a leap second lose and double no sa
   for (double t = 3.0; t < 60.0; t += 0.1) REQUIRE(sailing.follows(t));
 }
 
+TEST_CASE("before anything has come, health names that alone") {
+  Sailing sailing;
+  CHECK(sailing.feed.trouble(at_s(0)) == "no place yet: no fix has come");
+  CHECK(sailing.feed.trouble(at_s(10)) == "no place yet: no fix has come");
+}
+
 TEST_CASE("a first fix 50 km off is not accepted") {
   Sailing sailing;
   sailing.second(0, 0.0, 50e3);

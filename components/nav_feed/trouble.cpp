@@ -17,8 +17,8 @@ void add_cause(std::string& causes, const std::string& cause) {
 
 std::string FedTrack::lack_of_fixes(double t_s) const {
   if (east_m_.empty()) {
-    return trial_.is_on() ? "no place yet: a first fix counts when three in a row agree"
-                          : "no place yet: no fix has come";
+    if (trial_.is_on()) return "no place yet: a first fix counts when three in a row agree";
+    return refusal_.empty() ? "no place yet: no fix has come" : "no place yet";
   }
   const double since_s = t_s - east_m_.newest_s();
   if (since_s <= 0.0) return "";
@@ -30,7 +30,8 @@ std::string FedTrack::trouble(SimTime now) const {
   const double t_s = delayed_s(now);
   std::string causes;
   if (!east_m_.empty() && trial_.is_on()) add_cause(causes, jump_ + ": not followed unless three fixes in a row agree");
-  if (!trial_.is_on() && t_s < jumped_at_s_) add_cause(causes, jump_ + ": the vehicle has not come there yet");
+  if (!jump_.empty() && !trial_.is_on() && t_s < jumped_at_s_)
+    add_cause(causes, jump_ + ": the vehicle has not come there yet");
   add_cause(causes, refusal_);
   add_cause(causes, lack_of_fixes(t_s));
   if (now - date_jumped_at_ < kDateJumpIsNamed) add_cause(causes, date_jump_);

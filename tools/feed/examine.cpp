@@ -49,6 +49,17 @@ std::size_t Findings::sentences() const {
   return count;
 }
 
+const char* word_of(Findings::Format format) {
+  switch (format) {
+    case Findings::Format::kNmea: return "nmea";
+    case Findings::Format::kTss1: return "tss1";
+    case Findings::Format::kEmAttitude: return "em_attitude";
+    case Findings::Format::kKmBinary: return "km_binary";
+    case Findings::Format::kNone: break;
+  }
+  return "";
+}
+
 void Examiner::take(std::string_view bytes, std::optional<double> unix_s, bool whole) {
   unix_s_ = unix_s;
   found_.bytes += bytes.size();
@@ -146,7 +157,9 @@ void Examiner::take_line(const std::string& line) {
   if (name.front() != 'P' && name.size() == 5) found_.talkers.insert(name.substr(0, 2));
   Kind& kind = note(name, time_of(said));
   std::visit(Overloaded{[&](const nmea::Fix& fix) { use(fix, kind); },
+                        [&](const nmea::DateAndTime& clock) { use_date(clock.date, clock.time_s); },
                         [&](const nmea::MinimumFix& minimum) {
+                          if (minimum.fix.quality > 0 && minimum.date) use_date(*minimum.date, minimum.fix.time_s);
                           const bool gga = std::ranges::any_of(
                               found_.kinds, [](const auto& one) { return one.first.ends_with("GGA"); });
                           if (!gga) use(minimum.fix, kind);
@@ -159,6 +172,12 @@ void Examiner::take_line(const std::string& line) {
                         },
                         [&](const formats::Motion& motion) { use(motion, kind); }, [](const auto&) {}},
              said);
+}
+
+void Examiner::use_date(std::chrono::sys_days date, double time_s) {
+  if (!unix_s_) return;
+  const double ahead_s = kDay_s * static_cast<double>(date.time_since_epoch().count()) + time_s - *unix_s_;
+  ++found_.dates_ahead_days[std::lround(ahead_s / kDay_s)];
 }
 
 void Examiner::use(const nmea::Fix& fix, Kind&) {

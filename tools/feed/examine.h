@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -47,13 +48,17 @@ struct Findings {
   std::size_t bytes = 0;
   std::map<std::string, Kind> kinds;  // "INGGA", "PSXN,23", "tss1"
   std::set<std::string> talkers, datums;
-  std::map<int, std::size_t> qualities;  // of fixes
+  std::map<int, std::size_t> qualities;          // of fixes
+  std::map<long, std::size_t> dates_ahead_days;  // of the clock's at arrival, and how many
   std::size_t bad_checksums = 0, malformed = 0, unusable = 0, skipped_bytes = 0;
   std::vector<Placed> fixes;
   std::vector<Sampled> heading_rad, roll_rad, pitch_rad, heave_m, acceleration_mps2;
 
   std::size_t sentences() const;
 };
+
+/// As nav_feed's sources have it; "" where none is known.
+const char* word_of(Findings::Format format);
 
 /// Takes what arrives, in any of the formats that nav_feed knows: which one it is, its frames say.
 class Examiner {
@@ -65,6 +70,7 @@ class Examiner {
 
  private:
   void take_line(const std::string& line);
+  void use_date(std::chrono::sys_days date, double time_s);
   void use(const nmea::Fix& fix, Kind& kind);
   void use(const formats::Motion& motion, Kind& kind);
   void frame(const char* name, const std::optional<formats::Motion>& motion);

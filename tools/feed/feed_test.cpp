@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "components/formats/nmea/testing/sentence.h"
 #include "kernels/base/random/stream.h"
@@ -67,7 +68,7 @@ std::string report(const Ship& ship) { return report_of(findings_of(ship), "udp:
 TEST_CASE("a good feed has right signs, its time scale, and the antenna's height within its error") {
   const Report found = report_of(findings_of({}), "udp: 10110");
   INFO(found.text);
-  CHECK(found.faults == 0);
+  CHECK(found.faults.empty());
   CHECK_THAT(found.text, Catch::Contains("sign of roll: right") && Catch::Contains("sign of heave: right") &&
                              Catch::Contains("time scale: UTC: +0.20 s"));
   CHECK_THAT(found.text, Catch::Contains("GPGGA            240  2 Hz") && Catch::Contains("talkers: GP"));
@@ -94,6 +95,60 @@ TEST_CASE("GPS time is named, and two scales on one way") {
   CHECK_THAT(report({.ahead_s = 18.1}),
              Catch::Contains("time scale: GPS: +18.10 s") && Catch::Contains("time_scale: gps"));
   CHECK_THAT(report({.motion_ahead_s = 18.0}), Catch::Contains("two scales on one way: motion is +18.0 s ahead"));
+}
+
+TEST_CASE("as JSON the findings are those of the text, and what is not known is null") {
+  const Findings found = findings_of({.heave_sign = -1.0, .ahead_s = 18.1});
+  const Report report = report_of(found, "tcp: 4001, of: 127.0.0.1");
+  const auto json = nlohmann::json::parse(json_of(found, report, {3, "connection was closed"}));
+  REQUIRE(json["faults"].size() == 2);  // the time scale, and heave
+  for (const std::string fault : json["faults"]) CHECK_THAT(report.text, Catch::Contains(fault + "\n"));
+  CHECK(json["time_scale"] == "gps");
+  CHECK_THAT(report.text, Catch::Contains("  ship: " + json["source"].get<std::string>()));
+  CHECK(json["format"] == "nmea");
+  CHECK(json["talkers"] == nlohmann::json{"GP"});
+  CHECK(json["fixes_by_quality"]["4"] == 240);
+  REQUIRE(json["kinds"].size() == 2);
+  CHECK(json["kinds"][0]["kind"] == "GPGGA");
+  CHECK(json["kinds"][0]["count"] == 240);
+  CHECK(std::abs(json["kinds"][0]["arrivals"]["rate_hz"].get<double>() - 2.0) < 1e-6);
+  CHECK(json["signs"][0]["is"] == "right");
+  CHECK(json["signs"][1]["is"] == "reversed");
+  CHECK(std::abs(json["antenna_up_m"].get<double>() - 10.0) < 0.5);
+  CHECK(json["refused"] == 3);
+  CHECK(json["trouble"] == "connection was closed");
+
+  const auto silent = nlohmann::json::parse(json_of({}, report_of({}, "udp: 10110"), {}));
+  CHECK(silent["faults"].size() == 1);
+  for (const char* key : {"format", "source", "time_scale", "antenna_up_m", "seconds", "trouble"})
+    CHECK(silent[key].is_null());
+}
+
+TEST_CASE("bytes of a feed that are no UTF-8 do not break the JSON") {
+  Examiner examiner;
+  examiner.take(nmea::sentence("\xff\xfeHDT,12.5,T"), 1.0, true);
+  const Findings found = examiner.findings();
+  REQUIRE(found.kinds.size() == 1);
+  CHECK(nlohmann::json::accept(json_of(found, report_of(found, "udp: 10110"), {})));
+}
+
+TEST_CASE("dates of a week that rolled over are to be corrected; those of an old log are not") {
+  constexpr double kDay_s = 86400.0, kNoon_s = 20000.5 * kDay_s;  // of 4 October 2024
+  const auto faults_of = [&](const char* date, double off_days) {
+    Examiner examiner;
+    for (int i = 0; i < 10; ++i)
+      examiner.take(nmea::sentence(fmt::format("GPZDA,1200{:02d}.00,{},00,00", i, date)), kNoon_s + i, true);
+    const Findings found = examiner.findings();
+    CHECK(found.dates_ahead_days.at(std::lround(off_days)) == 10);
+    return report_of(found, "udp: 10110").faults;
+  };
+  CHECK(faults_of("04,10,2024", 0).empty());
+  CHECK(faults_of("03,10,2024", -1).empty());
+  const auto faults = faults_of("18,02,2005", -7168);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0] ==
+        "dates: 10 are 7168 days behind the clock at arrival: the receiver's week has rolled over; nav_feed uses no "
+        "dates");
 }
 
 TEST_CASE("bad checksums, half lines and repeats are counted") {

@@ -22,6 +22,7 @@ struct Options {
   std::string of = "127.0.0.1", at = "127.0.0.1", serial, file;
   std::vector<std::string> senders{"127.0.0.1"};
   double seconds = 60.0;
+  bool json = false;
 };
 
 /// How the bytes come, as a source of nav_feed has it.
@@ -59,7 +60,7 @@ void read_file(const std::string& path, feed_doctor::Examiner& examiner) {
   }
 }
 
-void receive(const Options& options, feed_doctor::Examiner& examiner) {
+feed_doctor::Reception receive(const Options& options, feed_doctor::Examiner& examiner) {
   const auto channel = channel_of(options);
   fmt::print(stderr, "receives for {:g} s: {}\n", options.seconds, way_of(options));
   using Clock = std::chrono::steady_clock;
@@ -71,10 +72,14 @@ void receive(const Options& options, feed_doctor::Examiner& examiner) {
     const std::chrono::duration<double> unix_s = std::chrono::system_clock::now().time_since_epoch();
     examiner.take(piece->bytes, unix_s.count(), piece->whole);
   }
-  if (channel->refused() > 0)
-    fmt::print("{} datagrams or connections came from others than {}: name them with --sender\n", channel->refused(),
+  return {channel->refused(), channel->trouble()};
+}
+
+void print(const Options& options, const feed_doctor::Reception& reception) {
+  if (reception.refused > 0)
+    fmt::print("{} datagrams or connections came from others than {}: name them with --sender\n", reception.refused,
                fmt::join(options.senders, ", "));
-  if (!channel->trouble().empty()) fmt::print("{}\n", channel->trouble());
+  if (!reception.trouble.empty()) fmt::print("{}\n", reception.trouble);
 }
 
 }  // namespace
@@ -107,14 +112,23 @@ int main(int argc, char** argv) {
   doctor->add_option("--seconds", options.seconds, "time to receive for")
       ->capture_default_str()
       ->check(CLI::Range(0.1, 86400.0));
+  doctor->add_flag("--json", options.json, "print the findings as one JSON object; what is not known is null");
   return tool_main(app, argc, argv, [&]() -> int {
     const auto given =
         std::count_if(std::begin(ways), std::end(ways), [](const CLI::Option* way) { return way->count() > 0; });
     if (given != 1) throw UserError("needs one of PORT (--udp), --tcp-server, --tcp, --serial, --file");
     feed_doctor::Examiner examiner;
-    options.file.empty() ? receive(options, examiner) : read_file(options.file, examiner);
-    const feed_doctor::Report report = feed_doctor::report_of(examiner.findings(), way_of(options));
-    fmt::print("{}", report.text);
-    return report.faults > 0 ? kFaultsFound : kExitOk;
+    feed_doctor::Reception reception;
+    if (options.file.empty()) reception = receive(options, examiner);
+    else read_file(options.file, examiner);
+    const feed_doctor::Findings found = examiner.findings();
+    const feed_doctor::Report report = feed_doctor::report_of(found, way_of(options));
+    if (options.json) {
+      fmt::print("{}\n", feed_doctor::json_of(found, report, reception));
+    } else {
+      print(options, reception);
+      fmt::print("{}", report.text);
+    }
+    return !report.faults.empty() ? kFaultsFound : kExitOk;
   });
 }

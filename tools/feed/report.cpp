@@ -6,40 +6,20 @@
 #include <cmath>
 #include <optional>
 
+#include "components/formats/time_of_day.h"
+#include "tools/feed/rhythm.h"
+
 namespace ensonify::feed_doctor {
 namespace {
 
-constexpr double kGpsAhead_s = 18.0;  // of UTC, since 2017
-constexpr double kClose_s = 5.0;      // a clock is right within this
+constexpr double kGpsAhead_s = 18.0;   // of UTC, since 2017
+constexpr double kClose_s = 5.0;       // a clock is right within this
+constexpr long kRollover_days = 7168;  // 1,024 weeks, which is what ten bits count
 
-const char* word_of(Findings::Format format) {
-  switch (format) {
-    case Findings::Format::kNmea: return "nmea";
-    case Findings::Format::kTss1: return "tss1";
-    case Findings::Format::kEmAttitude: return "em_attitude";
-    case Findings::Format::kKmBinary: return "km_binary";
-    case Findings::Format::kNone: break;
-  }
-  return "";
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-/// Rate and jitter of times: intervals, and by how much 95 of 100 differ from the median one.
-std::string rhythm_of(const std::vector<double>& times_s, double wrap_s) {
-  std::vector<double> steps_s, off_ms;
-  for (std::size_t i = 1; i < times_s.size(); ++i) {
-    const double step_s = times_s[i] - times_s[i - 1];
-    steps_s.push_back(wrap_s > 0.0 ? std::remainder(step_s, wrap_s) : step_s);
-  }
-  if (steps_s.size() < 2) return "-";
-  const double median_s = quantile(steps_s, 0.5);
-  for (const double step_s : steps_s) off_ms.push_back(1e3 * std::abs(step_s - median_s));
-  if (!(median_s > 0.0)) return fmt::format("several at once, +-{:.0f} ms", quantile(off_ms, 0.95));
-  return fmt::format("{:.4g} Hz +-{:.0f} ms", 1.0 / median_s, quantile(off_ms, 0.95));
+std::string text_of(const std::optional<Rhythm>& rhythm) {
+  if (!rhythm) return "-";
+  if (!rhythm->rate_hz) return fmt::format("several at once, +-{:.0f} ms", rhythm->jitter_ms);
+  return fmt::format("{:.4g} Hz +-{:.0f} ms", *rhythm->rate_hz, rhythm->jitter_ms);
 }
 
 struct Scale {
@@ -87,7 +67,7 @@ Report report_of(const Findings& found, const std::string& way) {
   const auto say = [&](const std::string& line) { report.text += line + "\n"; };
   const auto fault = [&](const std::string& line) {
     say(line);
-    ++report.faults;
+    report.faults.push_back(line);
   };
   if (found.format == Findings::Format::kNone) {
     fault(found.bytes == 0 ? "nothing has come: is the sender alive, are port, speed of the line and --sender right?"
@@ -102,8 +82,8 @@ Report report_of(const Findings& found, const std::string& way) {
                   found.bytes));
   say(fmt::format("{:<12} {:>7}  {:<22} {:<22} {}", "kind", "count", "arrivals", "own times", "repeats"));
   for (const auto& [name, kind] : found.kinds) {
-    say(fmt::format("{:<12} {:>7}  {:<22} {:<22} {}", name, kind.count, rhythm_of(kind.arrivals_s, 0.0),
-                    rhythm_of(kind.own_s, 86400.0),
+    say(fmt::format("{:<12} {:>7}  {:<22} {:<22} {}", name, kind.count, text_of(rhythm_of(kind.arrivals_s, 0.0)),
+                    text_of(rhythm_of(kind.own_s, formats::kDay_s)),
                     kind.repeats > 0 ? fmt::format("{:.0f} %", 100.0 * static_cast<double>(kind.repeats) /
                                                                    static_cast<double>(kind.count))
                                      : ""));
@@ -121,12 +101,21 @@ Report report_of(const Findings& found, const std::string& way) {
     if (datum == "W84") say("datum: W84");
     else fault(fmt::format("datum: {}; set the receiver to WGS 84", datum));
   }
+  for (const auto& [days, count] : found.dates_ahead_days) {
+    if (days == 0) continue;
+    const std::string line = fmt::format("dates: {} are {} days {} the clock at arrival", count, std::abs(days),
+                                         days > 0 ? "ahead of" : "behind");
+    if (days % kRollover_days == 0) fault(line + ": the receiver's week has rolled over; nav_feed uses no dates");
+    else say(line + ", as in a log that is sent again; nav_feed uses no dates");
+  }
   const Scale scale = scale_of(found);
+  report.time_scale = scale.word;
+  report.time_scale_why = scale.text;
   scale.fault ? fault("time scale: " + scale.text) : say("time scale: " + scale.text);
 
   std::string reversed;
-  std::optional<double> antenna_m;
-  for (const Sign& sign : signs_of(found)) {
+  report.signs = signs_of(found);
+  for (const Sign& sign : report.signs) {
     const std::string numbers = sign.slope ? fmt::format(" (slope {:.2f} +- {:.2f}, {} samples)", sign.slope->value,
                                                          sign.slope->standard_error, sign.slope->count)
                                            : "";
@@ -140,9 +129,9 @@ Report report_of(const Findings& found, const std::string& way) {
     right ? say(text) : fault(text);
     if (!right) reversed += ", " + sign.of + "_reversed: true";
     if (sign.of == "roll") {
-      antenna_m = std::abs(sign.slope->value);
+      report.antenna_up_m = std::abs(sign.slope->value);
       say(fmt::format("antenna: {:.1f} m above the roll centre, standard error {:.1f} m, with what sways with the roll",
-                      *antenna_m, sign.slope->standard_error));
+                      *report.antenna_up_m, sign.slope->standard_error));
     }
   }
   say("not known from here: the sign of pitch, latency, lever arms forward and to starboard, offsets of the angles, "
@@ -159,9 +148,11 @@ Report report_of(const Findings& found, const std::string& way) {
   if (!motion) keys += ", motion: false";
   if (std::string(scale.word) != "utc") keys += std::string(", time_scale: ") + scale.word;
   keys += reversed;
-  say("\nsources:\n  ship: { " + keys + " }" +
-      (antenna_m && places ? fmt::format("   # unless it is measured: antenna_position_m: [0, 0, {:.1f}]", -*antenna_m)
-                           : ""));
+  report.source = "{ " + keys + " }";
+  say("\nsources:\n  ship: " + report.source +
+      (report.antenna_up_m && places
+           ? fmt::format("   # unless it is measured: antenna_position_m: [0, 0, {:.1f}]", -*report.antenna_up_m)
+           : ""));
   return report;
 }
 
