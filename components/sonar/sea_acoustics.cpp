@@ -110,22 +110,28 @@ Insonified SeaAcoustics::insonify(const Shot& shot, const trace::Mesh& seabed,
                                           distribution.trace(memory.plan, number * shot.rays_per_batch,
                                                              shot.rays_per_batch, trace, own.batch);
                                           weigh(shot, backscatter, seabed.contributors(), own);
+                                          find_parts(pose, cells, own);
                                           return &own;
                                         }) &
                                     tbb::make_filter<ShotMemory::OfBatch*, void>(
                                         tbb::filter_mode::serial_in_order, [&](ShotMemory::OfBatch* own) {
                                           sums = sums + own->sums;
                                           const profile::Span span(profile::Stage::kMerge);
-                                          const echo::Insonification batch{pose, own->batch.rays, own->batch.hits,
-                                                                           own->source_upa2m2, own->backscatter};
+                                          const echo::Insonification batch = own->insonification(pose);
                                           echo::take_bodies(batch, own->batch.to_bodies,
                                                             2.0 * std::numbers::pi / wavelength_m, cells.responses(),
                                                             own->batch.hits, memory.bodies);
-                                          cells.add(batch, memory.insonified);
+                                          cells.add(batch, own->parts, memory.insonified);
                                         }));
   const profile::Span span(profile::Stage::kMerge);
   return {echo::SpeckleCells::gather(memory.insonified, memory.bodies.rough), memory.bodies.smooth, sums,
           seabed_depth_m};
+}
+
+/// What a batch brings to the cells of the seabed: rays to bodies, its last, bring nothing.
+void SeaAcoustics::find_parts(const frames::HeadPose& pose, const echo::SpeckleCells& cells, ShotMemory::OfBatch& own) {
+  const profile::Span span(profile::Stage::kMerge);
+  cells.find_parts(own.insonification(pose), own.batch.hits.size() - own.batch.to_bodies.size(), own.parts);
 }
 
 /// What bubbles under the hull take on the way out and on the way back is the same for all paths.

@@ -171,6 +171,10 @@ struct ShotMemory {
     trace::RayDistribution::Batch batch;
     std::vector<float> source_upa2m2, backscatter;
     HitSums sums;
+    echo::CellParts parts;
+    echo::Insonification insonification(const frames::HeadPose& pose) const {
+      return {pose, batch.rays, batch.hits, source_upa2m2, backscatter};
+    }
   };
   /// Batches that are traced and weighed while those before them are merged.
   static constexpr std::size_t kAhead = 3;
@@ -271,6 +275,7 @@ class SeaAcoustics {
              ShotMemory::OfBatch& memory) const;
   void add_echoes_of_smooth_bodies(const Shot& shot, const echo::Scatterers& facets, double absorption_dbpm,
                                    const echo::Receivers& receivers, echo::Arrivals& arrivals) const;
+  static void find_parts(const frames::HeadPose& pose, const echo::SpeckleCells& cells, ShotMemory::OfBatch& own);
   double sent_db(double source_level_db) const;
 
   std::shared_ptr<const Environment> environment_;

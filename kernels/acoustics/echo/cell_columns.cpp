@@ -29,38 +29,29 @@ inline std::uint64_t cell_at(double east, double north, double up) {
 
 }  // namespace
 
-void find_cells(const trace::Hits& hits, double cell_m, std::size_t first, std::span<std::uint64_t> cells) {
+void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end, CellParts& parts) {
   const double per_cell = 1.0 / cell_m;
-  const double *const x = hits.position_enu_m.x.data() + first, *const y = hits.position_enu_m.y.data() + first,
-                      *const z = hits.position_enu_m.z.data() + first;
-  const float* const range_m = hits.range_m.data() + first;
+  const auto& at = batch.hits.position_enu_m;
+  const double *const x = at.x.data(), *const y = at.y.data(), *const z = at.z.data();
+  const float* const range_m = batch.hits.range_m.data();
   const double shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
-  std::uint64_t* const cell = cells.data();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  std::uint64_t* const cell = parts.cell.data();
+  for (std::size_t i = first; i < end; ++i) {
     const std::uint64_t number = cell_at(std::floor(x[i] * per_cell + shift_x), std::floor(y[i] * per_cell + shift_y),
                                          std::floor(z[i] * per_cell + shift_z));
     cell[i] = range_m[i] > 0.0F ? number : kNoCell;
   }
-}
-
-void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits) {
-  alignas(64) Column<std::uint64_t> cell;
-  alignas(64) Column<float> scattered, cross_section;
-  const std::size_t count = hits.size();
-  find_cells(batch.hits, cell_m, first, std::span(cell).first(count));
-  const float* const sin_grazing = batch.hits.sin_grazing.data() + first;
-  const float* const tube_m2 = batch.hits.tube_m2.data() + first;
-  const float* const solid_angle_sr = batch.rays.solid_angle_sr.data() + first;
-  const float* const backscatter = batch.backscatter.data() + first;
-  const float* const source_upa2m2 = batch.source_upa2m2.data() + first;
-  for (std::size_t i = 0; i < count; ++i) {
+  const float* const sin_grazing = batch.hits.sin_grazing.data();
+  const float* const tube_m2 = batch.hits.tube_m2.data();
+  const float* const solid_angle_sr = batch.rays.solid_angle_sr.data();
+  const float* const backscatter = batch.backscatter.data();
+  const float* const source_upa2m2 = batch.source_upa2m2.data();
+  float* const scattered = parts.scattered_upa2m2.data();
+  float* const cross_section = parts.cross_section_m2.data();
+  for (std::size_t i = first; i < end; ++i) {
     const float sigma_solid = backscatter[i] * solid_angle_sr[i] / std::max(sin_grazing[i], 1e-3F);
     scattered[i] = source_upa2m2[i] * sigma_solid;
     cross_section[i] = tube_m2[i] * sigma_solid;
-  }
-  const std::uint32_t* const contributor = batch.hits.contributor.data() + first;
-  for (std::size_t i = 0; i < count; ++i) {
-    hits[i] = {cell[i], static_cast<std::uint32_t>(first + i), contributor[i], scattered[i], cross_section[i]};
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/trace/ray.h"
@@ -32,17 +33,15 @@ constexpr std::size_t kCellRun = 256;  // rays or cells whose numbers stay in th
 constexpr int kCellBits = 21;
 constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
 
-/// One ray's part of a cell.
-struct CellHit {
-  std::uint64_t cell;  // kNoCell where the ray hit nothing
-  std::uint32_t ray, contributor;
-  float scattered_upa2m2, cross_section_m2;
+/// What rays bring to their cells, by ray. Memory of the caller's.
+struct CellParts {
+  std::vector<std::uint64_t> cell;  // kNoCell where the ray hit nothing
+  std::vector<float> scattered_upa2m2, cross_section_m2;
+  std::size_t size() const { return cell.size(); }
 };
 
-/// Cells of rays first..first + cells.size() - 1, kCellRun at most.
-void find_cells(const trace::Hits& hits, double cell_m, std::size_t first, std::span<std::uint64_t> cells);
-/// Parts of rays first..first + hits.size() - 1, kCellRun at most.
-void find_cells(const Insonification& batch, double cell_m, std::size_t first, std::span<CellHit> hits);
+/// Parts of rays first..end - 1 of a batch, into rows of the same numbers.
+void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end, CellParts& parts);
 
 /// Random numbers of cells, by their number: where the scatterer is in its cell, and its response.
 struct CellStreams {

@@ -65,21 +65,21 @@ std::uint64_t number(const std::array<std::int64_t, 3>& cell) {
 TEST_CASE("cells in columns are those of each hit, also where their numbers repeat") {
   const Hits some(1000);
   for (const double cell_m : {0.0004, 0.03, 0.5}) {  // 2 km are 5 million cells of 0.4 mm, and 21 bits 2.1 million
-    std::vector<CellHit> found(200);
-    find_cells(some.all(), cell_m, 300, found);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      const trace::Hit hit = some.hits[300 + k];
-      REQUIRE(found[k].ray == 300 + k);
-      REQUIRE(found[k].contributor == hit.contributor);
+    CellParts found{std::vector<std::uint64_t>(600), std::vector<float>(600), std::vector<float>(600)};
+    find_parts(some.all(), cell_m, 300, 500, found);
+    CHECK(found.cell[299] == 0);
+    CHECK(found.cell[500] == 0);
+    for (std::size_t k = 300; k < 500; ++k) {
+      const trace::Hit hit = some.hits[k];
       if (!(hit.range_m > 0.0F)) {
-        REQUIRE(found[k].cell == kNoCell);
+        REQUIRE(found.cell[k] == kNoCell);
         continue;
       }
-      REQUIRE(found[k].cell == number(steps(hit.position_enu_m, cell_m)));
-      const double sigma_sr = double(some.backscatter[300 + k]) * double(some.rays[300 + k].solid_angle_sr) /
-                              std::max(double(hit.sin_grazing), 1e-3);
-      REQUIRE(double(found[k].scattered_upa2m2) == Approx(double(some.source[300 + k]) * sigma_sr).epsilon(1e-6));
-      REQUIRE(double(found[k].cross_section_m2) == Approx(double(hit.tube_m2) * sigma_sr).epsilon(1e-6));
+      REQUIRE(found.cell[k] == number(steps(hit.position_enu_m, cell_m)));
+      const double sigma_sr =
+          double(some.backscatter[k]) * double(some.rays[k].solid_angle_sr) / std::max(double(hit.sin_grazing), 1e-3);
+      REQUIRE(double(found.scattered_upa2m2[k]) == Approx(double(some.source[k]) * sigma_sr).epsilon(1e-6));
+      REQUIRE(double(found.cross_section_m2[k]) == Approx(double(hit.tube_m2) * sigma_sr).epsilon(1e-6));
     }
   }
 }

@@ -3,44 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
-#include <utility>
 
 namespace ensonify::echo {
 namespace {
 
-/// Blocks of 16 cells each way go to one bucket, so that the hits of a bucket stand together in memory.
-constexpr std::uint64_t kBlock =
-    ~(std::uint64_t{15} | (std::uint64_t{15} << kCellBits) | (std::uint64_t{15} << (2 * kCellBits)));
-/// Blocks of 4 cells each way, whose slots in a table are one line of the cache.
-constexpr std::uint64_t kPatch =
-    ~(std::uint64_t{3} | (std::uint64_t{3} << kCellBits) | (std::uint64_t{3} << (2 * kCellBits)));
-constexpr std::size_t kLine = 16, kLeastTable = 64;
+constexpr std::size_t kSumsPerTask = 16384;
 
-/// The top bits are well mixed.
-std::uint64_t spread(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15ULL; }
-
-/// Where a search for a cell begins in a table whose size is a power of 2. Of a layer of a patch, whichever way it
-/// stands, all 16 cells begin in different slots of one line.
-std::size_t slot_of(std::uint64_t cell, std::size_t table_size) {
-  const std::uint64_t up = cell >> (2 * kCellBits);
-  const std::uint64_t in_line = ((cell + up) & 3) | (((cell >> kCellBits) + up) & 3) << 2;
-  return (((spread(cell & kPatch) >> 40) * kLine) & (table_size - 1)) | in_line;
+/// work(first, end) for runs of kCellRun of `count` numbers, side by side.
+template <class Work>
+void for_runs(std::size_t count, const Work& work) {
+  tbb::parallel_for(std::size_t{0}, (count + kCellRun - 1) / kCellRun,
+                    [&](std::size_t run) { work(run * kCellRun, std::min(count, (run + 1) * kCellRun)); });
 }
-
-/// The next slot: another of the next line, and in the end every one.
-std::size_t after(std::size_t slot, std::size_t table_size) { return (slot + kLine + 1) & (table_size - 1); }
 
 }  // namespace
 
 /// The next ping may have some more: no memory for them then.
 void SpeckleCells::Accumulator::clear() {
-  for (Bucket& bucket : buckets_) {
-    const std::size_t size = bucket.entries.size();
-    bucket.entries.clear();
-    bucket.numbered = 0;
-    if (bucket.entries.capacity() < size + size / 2) bucket.entries.reserve(2 * size);
-  }
-  const std::size_t size = found_.size();
+  first_of_.clear();
+  const std::size_t size = sums_.size();
+  sums_.clear();
+  trace::make_room(sums_, size + size / 8);
+  shared_.clear();
   found_.clear();
   found_.make_room(size + size / 8);
 }
@@ -49,140 +33,110 @@ SpeckleCells::SpeckleCells(double cell_m, const CellStreams& streams) : cell_m_(
   if (!(cell_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
 }
 
+void SpeckleCells::find_parts(const Insonification& batch, std::size_t rays, CellParts& parts) const {
+  trace::make_elements(parts.cell, rays);
+  trace::make_elements(parts.scattered_upa2m2, rays);
+  trace::make_elements(parts.cross_section_m2, rays);
+  for_runs(rays, [&](std::size_t first, std::size_t end) { echo::find_parts(batch, cell_m_, first, end, parts); });
+}
+
 void SpeckleCells::add(const Insonification& batch, Accumulator& sum) const {
-  const auto bucket_of = [](std::uint64_t cell) {
-    return cell == kNoCell ? kBuckets : static_cast<std::size_t>(spread(cell & kBlock) >> 56);
-  };
-  const auto each_run = [](std::size_t begin, std::size_t end, auto& run, const auto& work) {
-    for (; begin < end; begin += kCellRun) work(begin, std::span(run).first(std::min(kCellRun, end - begin)));
-  };
-  sum.by_bucket_.count(batch.hits.size(), kBuckets, [&](std::size_t begin, std::size_t end, const auto& add) {
-    std::array<std::uint64_t, kCellRun> cells;
-    each_run(begin, end, cells, [&](std::size_t first, const auto& run) {
-      find_cells(batch.hits, cell_m_, first, run);
-      for (const std::uint64_t cell : run) add(bucket_of(cell));
-    });
-  });
-  sum.by_bucket_.fill([&](std::size_t begin, std::size_t end, const auto& add) {
-    std::array<CellHit, kCellRun> hits;
-    each_run(begin, end, hits, [&](std::size_t first, const auto& run) {
-      find_cells(batch, cell_m_, first, run);
-      for (const CellHit& hit : run) add(bucket_of(hit.cell), hit);
-    });
-  });
-  sum.number_.assign(batch.hits.size(), 0);
-  tbb::parallel_for(std::size_t{0}, kBuckets, [&](std::size_t bucket) {
-    merge(std::as_const(sum.by_bucket_).bucket(bucket), sum.buckets_[bucket], sum.number_);
-  });
-  find_new(batch, sum);
-  tbb::parallel_for(std::size_t{0}, kBuckets,
-                    [&](std::size_t bucket) { number_new(sum.number_, sum.buckets_[bucket], sum.found_); });
+  find_parts(batch, batch.hits.size(), sum.parts_);
+  add(batch, sum.parts_, sum);
 }
 
-/// Adds rays to the entries of their cells and contributors, which are made when they are first found.
-void SpeckleCells::merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes) {
-  if (hits.empty()) return;
-  auto& [entries, table, numbered] = bucket;
-  if (table.empty()) table.resize(kLeastTable);
-  if (entries.empty()) std::ranges::fill(table, -1);  // not before: the cache has it now
-  for (const CellHit& hit : hits) {
-    if (2 * (entries.size() + 1) > table.size()) grow(bucket);
-    std::size_t slot = slot_of(hit.cell, table.size());
-    while (table[slot] >= 0 && entries[static_cast<std::size_t>(table[slot])].cell != hit.cell)
-      slot = after(slot, table.size());
-    const auto number = static_cast<std::int32_t>(entries.size());
-    const std::int32_t first = table[slot] >= 0 ? table[slot] : number;
-    std::int32_t* link = &table[slot];  // to the entry of this contributor
-    while (*link >= 0 && entries[static_cast<std::size_t>(*link)].contributor != hit.contributor)
-      link = &entries[static_cast<std::size_t>(*link)].next;
-    if (*link >= 0) {
-      Entry& same = entries[static_cast<std::size_t>(*link)];
-      same.scattered_upa2m2 += hit.scattered_upa2m2;
-      same.cross_section_m2 += hit.cross_section_m2;
-      continue;
+void SpeckleCells::add(const Insonification& batch, const CellParts& parts, Accumulator& sum) const {
+  merge(parts, batch.hits.contributor, sum);
+  place_new(batch, sum);
+}
+
+/// Adds rays to the sums of their cells and contributors, which are made when they are first found.
+void SpeckleCells::merge(const CellParts& parts, std::span<const std::uint32_t> contributors, Accumulator& sum) {
+  auto& sums = sum.sums_;
+  const auto cell_of = [&](std::uint32_t number) { return sums[number].cell; };
+  trace::make_elements(sum.makers_, parts.size());
+  sum.others_.clear();
+  std::size_t made = 0;
+  std::array<std::size_t, kCellRun> slots;
+  for (std::size_t first = 0; first < parts.size(); first += kCellRun) {
+    const std::size_t end = std::min(parts.size(), first + kCellRun);
+    sum.first_of_.make_room(kCellRun, cell_of);
+    for (std::size_t ray = first; ray < end; ++ray) {
+      slots[ray - first] = sum.first_of_.slot(parts.cell[ray]);
+      sum.first_of_.fetch(slots[ray - first]);
     }
-    *link = number;
-    entries.push_back({hit.cell, hit.scattered_upa2m2, hit.cross_section_m2, hit.contributor, hit.ray, first, -1});
-    makes[hit.ray] = 1;
-  }
-}
-
-/// Numbers the scatterers that rays of this batch make, in the order of rays, and finds where they are.
-void SpeckleCells::find_new(const Insonification& batch, Accumulator& sum) const {
-  auto &number = sum.number_, &makers = sum.makers_;
-  const std::size_t before = sum.found_.size();
-  trace::make_elements(makers, number.size() + 1);
-  std::uint32_t count = 0;
-  for (std::uint32_t ray = 0; ray < number.size(); ++ray) {
-    const std::uint32_t makes = number[ray];
-    makers[count] = ray;
-    number[ray] = static_cast<std::uint32_t>(before) + count;
-    count += makes;
-  }
-  sum.found_.resize(before + count);
-  tbb::parallel_for(std::size_t{0}, (count + kCellRun - 1) / kCellRun, [&](std::size_t run) {
-    const std::size_t first = run * kCellRun;
-    const auto rays = std::span(makers).subspan(first, std::min(kCellRun, count - first));
-    find_geometry(batch, cell_m_, streams_, rays, sum.found_, before + first);
-  });
-}
-
-/// Gives new entries their scatterers' numbers. Those of one cell share the place and the response of its first.
-void SpeckleCells::number_new(std::span<const std::uint32_t> number, Bucket& bucket, Scatterers& found) {
-  auto& [entries, table, numbered] = bucket;
-  for (; numbered < entries.size(); ++numbered) {
-    Entry& entry = entries[numbered];
-    entry.scatterer = number[entry.scatterer];
-    const auto first = static_cast<std::size_t>(entry.first);
-    if (first != numbered) found.set(entry.scatterer, found[entries[first].scatterer]);
-  }
-}
-
-void SpeckleCells::grow(Bucket& bucket) {
-  const auto& entries = bucket.entries;
-  auto& table = bucket.table;
-  table.assign(2 * table.size(), -1);
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (static_cast<std::size_t>(entries[i].first) != i) continue;
-    std::size_t slot = slot_of(entries[i].cell, table.size());
-    while (table[slot] >= 0) slot = after(slot, table.size());
-    table[slot] = static_cast<std::int32_t>(i);
-  }
-}
-
-/// Of all cells: a cell's contributors share what it scatters as their energies are.
-void SpeckleCells::take_energies(const Bucket& bucket, Scatterers& found) {
-  const auto& entries = bucket.entries;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (static_cast<std::size_t>(entries[i].first) != i) continue;
-    float scattered_upa2m2 = 0.0F, cross_section_m2 = 0.0F;
-    const auto each = [&](const auto& visit) {
-      for (const Entry* entry = &entries[i];; entry = &entries[static_cast<std::size_t>(entry->next)]) {
-        visit(*entry);
-        if (entry->next < 0) return;
+    for (std::size_t ray = first; ray < end; ++ray) {
+      const std::uint64_t cell = parts.cell[ray];
+      if (cell == kNoCell) continue;
+      const auto next = static_cast<std::uint32_t>(sums.size());
+      const std::uint32_t first_of_cell = sum.first_of_.number(cell, slots[ray - first], next, cell_of);
+      std::uint32_t number = first_of_cell;
+      if (number != next) {
+        std::uint32_t last = number;
+        while (number != kNone && sums[number].contributor != contributors[ray]) number = sums[last = number].next;
+        if (number == kNone) {
+          if (last == first_of_cell) sum.shared_.push_back(first_of_cell);
+          sums[last].next = number = next;
+          sum.others_.push_back({next, first_of_cell});
+        }
       }
-    };
-    each([&](const Entry& entry) {
-      scattered_upa2m2 += entry.scattered_upa2m2;
-      cross_section_m2 += entry.cross_section_m2;
-    });
-    each([&](const Entry& entry) {
-      const std::size_t k = entry.scatterer;
-      found.scattered_upa2m2[k] = scattered_upa2m2;
-      found.cross_section_m2[k] = cross_section_m2;
-      found.share[k] = scattered_upa2m2 > 0.0F ? entry.scattered_upa2m2 / scattered_upa2m2 : 1.0F;
-      found.contributor[k] = entry.contributor;
-    });
+      if (number == next) {
+        sums.push_back({cell, parts.scattered_upa2m2[ray], parts.cross_section_m2[ray], contributors[ray], kNone});
+        sum.makers_[made++] = static_cast<std::uint32_t>(ray);
+      } else {
+        sums[number].scattered_upa2m2 += parts.scattered_upa2m2[ray];
+        sums[number].cross_section_m2 += parts.cross_section_m2[ray];
+      }
+    }
+  }
+  sum.makers_.resize(made);
+}
+
+/// Finds where the scatterers are that rays of this batch make. Those of one cell share the place and the response of
+/// its first.
+void SpeckleCells::place_new(const Insonification& batch, Accumulator& sum) const {
+  const std::size_t before = sum.found_.size();
+  sum.found_.resize(sum.sums_.size());
+  for_runs(sum.makers_.size(), [&](std::size_t first, std::size_t end) {
+    find_geometry(batch, cell_m_, streams_, std::span(sum.makers_).subspan(first, end - first), sum.found_,
+                  before + first);
+  });
+  for (const auto& [scatterer, first] : sum.others_) sum.found_.set(scatterer, sum.found_[first]);
+}
+
+/// A cell's contributors share what it scatters as their energies are.
+void SpeckleCells::share(Accumulator& sum) {
+  for (const std::uint32_t first : sum.shared_) {
+    float scattered_upa2m2 = 0.0F, cross_section_m2 = 0.0F;
+    for (std::uint32_t k = first; k != kNone; k = sum.sums_[k].next) {
+      scattered_upa2m2 += sum.sums_[k].scattered_upa2m2;
+      cross_section_m2 += sum.sums_[k].cross_section_m2;
+    }
+    for (std::uint32_t k = first; k != kNone; k = sum.sums_[k].next) {
+      sum.found_.scattered_upa2m2[k] = scattered_upa2m2;
+      sum.found_.cross_section_m2[k] = cross_section_m2;
+      if (scattered_upa2m2 > 0.0F) sum.found_.share[k] = sum.sums_[k].scattered_upa2m2 / scattered_upa2m2;
+    }
   }
 }
 
 const Scatterers& SpeckleCells::gather(Accumulator& sum, const Scatterers& more) {
-  tbb::parallel_for(std::size_t{0}, kBuckets,
-                    [&](std::size_t bucket) { take_energies(sum.buckets_[bucket], sum.found_); });
-  const std::size_t own = sum.found_.size();
-  sum.found_.resize(own + more.size());
-  for (std::size_t i = 0; i < more.size(); ++i) sum.found_.set(own + i, more[i]);
-  return sum.found_;
+  Scatterers& found = sum.found_;
+  const std::size_t own = sum.sums_.size();
+  tbb::parallel_for(std::size_t{0}, (own + kSumsPerTask - 1) / kSumsPerTask, [&](std::size_t task) {
+    const std::size_t end = std::min(own, (task + 1) * kSumsPerTask);
+    for (std::size_t k = task * kSumsPerTask; k < end; ++k) {
+      const Energy& one = sum.sums_[k];
+      found.scattered_upa2m2[k] = one.scattered_upa2m2;
+      found.cross_section_m2[k] = one.cross_section_m2;
+      found.share[k] = 1.0F;
+      found.contributor[k] = one.contributor;
+    }
+  });
+  share(sum);
+  found.resize(own + more.size());
+  for (std::size_t i = 0; i < more.size(); ++i) found.set(own + i, more[i]);
+  return found;
 }
 
 }  // namespace ensonify::echo

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/acoustics/echo/cell_columns.h"
-#include "kernels/acoustics/echo/partition.h"
+#include "kernels/acoustics/echo/cell_table.h"
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/base/random/stream.h"
 
@@ -27,21 +27,14 @@ namespace ensonify::echo {
 /// incoherent seabed. Choose cells of at most half the range resolution and a quarter of the footprint. The spacing of
 /// cells is exact to 2^20 cells from the world's origin; beyond they repeat.
 class SpeckleCells {
-  static constexpr std::size_t kBuckets = 256;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  /// Of a cell, one for each contributor: sums of its rays.
-  struct Entry {
+  /// Of a scatterer: sums of its rays.
+  struct Energy {
     std::uint64_t cell;
     float scattered_upa2m2, cross_section_m2;
     std::uint32_t contributor;
-    std::uint32_t scatterer;   // while a batch is merged, of a new entry: the first ray
-    std::int32_t first, next;  // entries of the cell; -1: there is no other
-  };
-  /// Cells that are near each other, in the order in which they are first found.
-  struct Bucket {
-    std::vector<Entry> entries;
-    std::vector<std::int32_t> table;  // of cells' first entries, by hash; of an earlier ping while there are no entries
-    std::size_t numbered = 0;         // entries that have their scatterer
+    std::uint32_t next;  // scatterer of the same cell, by another contributor; kNone: there is no other
   };
 
  public:
@@ -50,16 +43,20 @@ class SpeckleCells {
   /// hits that make some are read, and those of scatterers written, one after the other and once.
   class Accumulator {
    public:
-    Accumulator() : buckets_(kBuckets) {}
     void clear();
 
    private:
     friend SpeckleCells;
-    Partition<CellHit> by_bucket_;
-    std::vector<Bucket> buckets_;
-    std::vector<std::uint32_t> number_;  // by ray of a batch: 1 if it makes a scatterer; then that one's number
+    CellTable first_of_;                 // the first scatterer of each cell
+    std::vector<Energy> sums_;           // by scatterer
+    std::vector<std::uint32_t> shared_;  // first scatterers of cells that have several
     std::vector<std::uint32_t> makers_;  // rays of a batch that make one
-    Scatterers found_;                   // yet without energies
+    struct Other {
+      std::uint32_t scatterer, first;
+    };
+    std::vector<Other> others_;  // that a batch finds in cells which have one
+    CellParts parts_;            // where the caller has none
+    Scatterers found_;           // yet without energies
   };
 
   /// Throws std::invalid_argument unless cell_m > 0.
@@ -72,6 +69,11 @@ class SpeckleCells {
   /// by the rays themselves. sin(theta) below 0.001 counts as that.
   void add(const Insonification& batch, Accumulator& sum) const;
 
+  /// The same in two steps, of which the first may be taken for several batches at once: what the first `rays` of a
+  /// batch bring to their cells, and adding that.
+  void find_parts(const Insonification& batch, std::size_t rays, CellParts& parts) const;
+  void add(const Insonification& batch, const CellParts& parts, Accumulator& sum) const;
+
   /// The scatterers of all batches since the accumulator was cleared, in the order in which rays find them, whatever
   /// the batches. They lie in the accumulator until it is cleared.
   /// After them come `more`, which other stages have found.
@@ -81,11 +83,9 @@ class SpeckleCells {
   const random::Stream& responses() const { return streams_.responses(); }
 
  private:
-  static void merge(std::span<const CellHit> hits, Bucket& bucket, std::span<std::uint32_t> makes);
-  void find_new(const Insonification& batch, Accumulator& sum) const;
-  static void number_new(std::span<const std::uint32_t> number, Bucket& bucket, Scatterers& found);
-  static void grow(Bucket& bucket);
-  static void take_energies(const Bucket& bucket, Scatterers& found);
+  static void merge(const CellParts& parts, std::span<const std::uint32_t> contributors, Accumulator& sum);
+  void place_new(const Insonification& batch, Accumulator& sum) const;
+  static void share(Accumulator& sum);
 
   double cell_m_;
   CellStreams streams_;

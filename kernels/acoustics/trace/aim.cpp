@@ -45,6 +45,56 @@ std::optional<Footprint> footprint_of(const std::array<Vec3, 6>& directions, dou
   return f;
 }
 
+constexpr std::size_t kSome = 256;  // places side by side
+using Column = std::array<double, kSome>;
+
+/// From a lattice's axes to the head's: a place's direction times its distance.
+struct ToHead {
+  Vec3 first, second, down;
+  Vec2 head_m;
+  double block_m3;  // below dA, for all places of a block
+};
+
+/// Of a part of the volume.
+struct Edges {
+  Vec2 from, to;
+  double low, high;
+  int along, zero;  // axes
+};
+
+struct Directions {
+  std::array<std::array<float, kSome>, 3> unit;
+  Column solid_angle_sr;                    // 0 beyond the edges
+  std::array<std::uint64_t, kSome> within;  // 1, or beyond the edges 0
+};
+
+void directions_to(const ToHead& to_head, const Edges& edges, const Column& first_m, const Column& second_m,
+                   const Column& share, std::size_t count, Directions& found) {
+  Column x, y, z;
+  const auto coordinate = [&](int k, Column& at) {
+    const double first = to_head.first[k], second = to_head.second[k], down = to_head.down[k];
+    const double head_first = to_head.head_m.x(), head_second = to_head.head_m.y();
+    for (std::size_t i = 0; i < count; ++i)
+      at[i] = (first_m[i] - head_first) * first + (second_m[i] - head_second) * second + down;
+  };
+  coordinate(0, x), coordinate(1, y), coordinate(2, z);
+  const double* const along = edges.along == 0 ? x.data() : z.data();
+  const double* const zero = edges.zero == 0 ? x.data() : z.data();
+  const double from_x = edges.from.x(), from_y = edges.from.y(), to_x = edges.to.x(), to_y = edges.to.y();
+  const double low = edges.low, high = edges.high, block_m3 = to_head.block_m3;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double away_m = std::sqrt(x[i] * x[i] + (y[i] * y[i] + z[i] * z[i])), per_m = 1.0 / away_m;
+    found.unit[0][i] = static_cast<float>(per_m * x[i]);
+    found.unit[1][i] = static_cast<float>(per_m * y[i]);
+    found.unit[2][i] = static_cast<float>(per_m * z[i]);
+    const bool within = (y[i] * from_x >= zero[i] * from_y) & (y[i] * to_x < zero[i] * to_y) &
+                        (along[i] >= low * away_m) & (along[i] < high * away_m);
+    found.within[i] = within ? 1 : 0;
+    const double solid_angle_sr = block_m3 * share[i] * per_m * per_m * per_m;  // below dA / away^3
+    found.solid_angle_sr[i] = within ? solid_angle_sr : 0.0;
+  }
+}
+
 // Of an object, at normal quality: as many as a facet has quarters of quarters, each of which gets one
 // (facet_rays.cpp). One that the volume's edge cuts has more places, for rays to those beyond it cost nothing.
 constexpr double kRaysToFacet = 16.0, kCutByEdge = 4.0;
@@ -76,23 +126,36 @@ RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const
   const Vec2 head_m = lattice.on_axes(view.head.position_enu_m.head<2>());
   for (Vec2& corner : footprint->outline_m) corner = lattice.on_axes(corner) + head_m;
 
-  // A place's direction times its distance, and which side of the part's edges it is on.
   const Eigen::Matrix3d head_from_enu = view.enu_from_head.transpose();
   const Vec3 first = head_from_enu.leftCols<2>() * lattice.first_axis_enu(),
              second = head_from_enu.leftCols<2>() * lattice.second_axis_enu(), down = -below_m * head_from_enu.col(2);
   const double block_m3 = below_m * lattice.block_m2();
+  const int along_row = forward ? 0 : 2, zero_row = forward ? 2 : 0;
   ToPlaces to_places;
-  lattice.within(stream_, footprint->outline_m, footprint->bulge_m, [&](double first_m, double second_m, double share) {
-    const Vec3 there = (first_m - head_m.x()) * first + (second_m - head_m.y()) * second + down;
-    const double along = forward ? there.x() : there.z(), side = there.y(), zero = forward ? there.z() : there.x();
-    if (side * from.x() < zero * from.y() || side * to.x() >= zero * to.y()) return;
-    const double away_m = there.norm();
-    if (along < low * away_m || along >= high * away_m) return;
-    const double per_m = 1.0 / away_m, solid_angle_sr = block_m3 * share * per_m * per_m * per_m;  // below dA / away^3
-    if (rays) rays->push_back({(per_m * there).cast<float>(), static_cast<float>(solid_angle_sr)});
-    to_places.solid_angle_sr += solid_angle_sr;
-    ++to_places.rays;
-  });
+  Column first_m, second_m, share;
+  std::size_t waiting = 0;
+  const auto take = [&] {
+    Directions some;
+    const Edges edges{from, to, low, high, along_row, zero_row};
+    directions_to({first, second, down, head_m, block_m3}, edges, first_m, second_m, share, waiting, some);
+    const std::size_t before = to_places.rays;
+    if (rays) rays->resize(before + kSome);
+    for (std::size_t i = 0; i < waiting; ++i) {
+      if (rays)
+        (*rays)[to_places.rays] = {{some.unit[0][i], some.unit[1][i], some.unit[2][i]},
+                                   static_cast<float>(some.solid_angle_sr[i])};
+      to_places.solid_angle_sr += some.solid_angle_sr[i];
+      to_places.rays += some.within[i];
+    }
+    if (rays) rays->resize(to_places.rays);
+    waiting = 0;
+  };
+  lattice.within(stream_, footprint->outline_m, footprint->bulge_m,
+                 [&](double first_at, double second_at, double part_of_block) {
+                   first_m[waiting] = first_at, second_m[waiting] = second_at, share[waiting] = part_of_block;
+                   if (++waiting == kSome) take();
+                 });
+  take();
   return to_places;
 }
 
