@@ -6,10 +6,10 @@ import gymnasium
 
 from ensonify.acts import Act
 from ensonify.episode import Seen
-from ensonify.messages import Mesh, Pose, Tile
-from ensonify.spaces import Array, Fields
+from ensonify.messages import Labels, Mesh, Object, ObjectMesh, Pose, Tile
+from ensonify.spaces import Array, Fields, Rows
 
-ALWAYS_TRUTH = (Pose, Tile, Mesh)  # message types that no instrument gives
+ALWAYS_TRUTH = (Pose, Tile, Mesh, Object, ObjectMesh, Labels)  # message types that no instrument gives
 
 
 class TruthError(ValueError):
@@ -19,12 +19,12 @@ class TruthError(ValueError):
 class Agent:
     """What is an agent's own. It keeps nothing of an episode, so that one may stand for several vehicles.
 
-    observe: topics and what of them is observed, ensonify.Fields or ensonify.Array
+    observe: topics and what of them is observed, ensonify.Fields, ensonify.Array or ensonify.Rows
     act: what an action publishes, ensonify.steer(...) or ensonify.Act
     reward, done: functions of what is Seen after a step; with done the agent's episode ends
     """
 
-    def __init__(self, *, observe: Mapping[str, Fields | Array], act: Act, reward: Callable[[Seen], float],
+    def __init__(self, *, observe: Mapping[str, Fields | Array | Rows], act: Act, reward: Callable[[Seen], float],
                  done: Callable[[Seen], bool] = lambda seen: False):
         self.observe, self.act = dict(observe), act
         self._reward, self._done = reward, done
@@ -34,7 +34,8 @@ class Agent:
 
     def observation(self, seen: Seen) -> dict:
         """What it observes of what was seen."""
-        return {key: value for topic, part in self.observe.items() for key, value in part.values(topic, seen[topic]).items()}
+        return {key: value for topic, part in self.observe.items()
+                for key, value in part.values(topic, seen.last(topic) if isinstance(part, Rows) else seen[topic]).items()}
 
     def judged(self, seen: Seen) -> tuple:
         """Its reward, and whether it is done."""
@@ -64,3 +65,13 @@ def topics_of(agents: Mapping[Any, Agent]) -> dict:
             if topics.setdefault(topic, message_type) is not message_type:
                 raise ValueError(f"{topic} is read as {topics[topic].TYPE} and as {message_type.TYPE}")
     return topics
+
+
+def kept_of(agents: Mapping[Any, Agent]) -> dict:
+    """How many of its newest messages each topic keeps for them, where that is more than one."""
+    kept: dict = {}
+    for agent in agents.values():
+        for topic, part in agent.observe.items():
+            if isinstance(part, Rows):
+                kept[topic] = max(part.keeps, kept.get(topic, 0))
+    return kept

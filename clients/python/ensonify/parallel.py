@@ -22,10 +22,10 @@ class ParallelEnv(pettingzoo.ParallelEnv):
     names, with `_red` behind it: command_red. In a launch without other wiring that steers the process `red`.
 
     agents: an ensonify.Agent by name, of letters, digits and _; one that is done leaves, and its last order stands
-    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, as of ensonify.episodes.Episodes
+    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, fps, as of ensonify.episodes.Episodes
     """
 
-    metadata = {"name": "ensonify", "render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"name": "ensonify", "render_modes": ["rgb_array", "human"], "render_fps": 10}
 
     def __init__(self, launch: str | os.PathLike, *, agents: Mapping[str, Agent], **keywords: Any):
         for name in agents:
@@ -80,7 +80,7 @@ class ParallelEnv(pettingzoo.ParallelEnv):
                 {name: {"t_s": seen.t_s} for name in actions})
 
     def render(self) -> np.ndarray | None:
-        """The newest ping of `image`, as ensonify.images.picture draws it."""
+        """The picture of `image` with render_mode="rgb_array"; a window shows it by itself."""
         return self._episodes.render()
 
     def close(self) -> None:

@@ -1,6 +1,7 @@
 """Spaces for what messages carry, and what an agent may do with them."""
 import dataclasses
-from typing import Any, Callable
+import weakref
+from typing import Any, Callable, Sequence
 
 import gymnasium
 import numpy as np
@@ -54,6 +55,31 @@ class Array:
         if value.shape != self._space.shape:
             raise ValueError(f"{topic}: the function's array has shape {value.shape}, its space {self._space.shape}")
         return {topic: value}
+
+
+class Rows:
+    """A picture of the newest messages, such as a sidescan's waterfall: a function makes a row of each, the newest is row 0. The space
+    is of rows x columns; rows are 0 until as many messages have come."""
+
+    def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
+        self.message_type = message_type
+        self.keeps = space.shape[0]
+        self._row = Array(message_type, function, Box(space.low[0], space.high[0], dtype=space.dtype.type))
+        self._space = space
+        self._known: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # rows by their messages, as long as these are kept
+
+    def spaces(self, topic: str) -> dict:
+        """The space, under the topic's name."""
+        return {topic: self._space}
+
+    def values(self, topic: str, messages: Sequence[Message]) -> dict:
+        """What the function says of each message, the newest last. A ValueError where that is not a row of the space."""
+        picture = np.zeros(self._space.shape, self._space.dtype)
+        for at, message in enumerate(reversed(messages[-self.keeps:])):
+            if message not in self._known:
+                self._known[message] = self._row.values(topic, message)[topic]
+            picture[at] = self._known[message]
+        return {topic: picture}
 
 
 def box_of(field: dataclasses.Field) -> Box | None:

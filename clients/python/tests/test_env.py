@@ -1,5 +1,6 @@
 """The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
 import importlib
+import importlib.util
 import os
 import pathlib
 import re
@@ -26,6 +27,10 @@ from ensonify.tasks.wall_follow import image
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 TASK = "Ensonify/AltitudeHold-v0"
 LAUNCH = pathlib.Path(ensonify.__file__).parent / "tasks" / "altitude_hold.yaml"
+
+
+WINDOWS = importlib.util.find_spec("pygame") is not None
+NO_DISPLAY = {"SDL_VIDEODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
 
 
 def environment(**changes):
@@ -133,7 +138,8 @@ class Episodes(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("error", UserWarning)
                 warnings.filterwarnings("ignore", message=".*observation space (minimum|maximum) value")
-                check_env(env.unwrapped)
+                with mock.patch.dict(os.environ, NO_DISPLAY):
+                    check_env(env.unwrapped, skip_render_check=not WINDOWS)
             env.close()
 
     def test_the_same_seed_and_actions_give_the_same_observations(self):
@@ -169,7 +175,7 @@ class Episodes(unittest.TestCase):
     def test_baselines_earn_what_the_manual_says(self):
         page = (ROOT / "docs/manual/gymnasium.md").read_text()
         for name, module in TASKS.items():
-            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((\d+) to (\d+)\) \|$", page, re.M).groups())
+            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((-?\d+) to (\d+)\) \|$", page, re.M).groups())
             env = gymnasium.make(f"Ensonify/{name}-v0")
             policy = importlib.import_module(f"ensonify.tasks.{module}").Baseline()
             total, _, _ = measured(env, policy, seed=101)
@@ -328,8 +334,30 @@ class Episodes(unittest.TestCase):
             env.reset(seed=1)
             image = env.render()
             self.assertEqual((image.shape[1:], image.dtype, image.max()), ((16, 3), np.uint8, 255))
-        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=TOPIC"):
+        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=: the topic of a head's pings, or a function"):
             environment(render_mode="rgb_array")
+        with self.assertRaisesRegex(ValueError, "^render_mode is 'ansi'; allowed: None, 'rgb_array', 'human'$"):
+            environment(render_mode="ansi")
+
+    @unittest.skipUnless(WINDOWS, "there is no pygame")
+    def test_a_window_shows_each_step_by_itself(self):
+        import pygame
+        frames = iter((10, 20, 30, 40))
+
+        def image(seen):
+            return np.full((4, 8, 3), (next(frames), 0, 255), np.uint8)
+
+        with mock.patch.dict(os.environ, NO_DISPLAY):
+            env = self.make(image=image, render_mode="human", fps=1000)
+            shown = lambda: tuple(pygame.display.get_surface().get_at((511, 255)))[:3]
+            env.reset(seed=1)
+            self.assertEqual((pygame.display.get_surface().get_size(), shown()), ((512, 256), (10, 0, 255)))
+            env.step(np.float32([20]))
+            self.assertEqual((env.render(), shown()), (None, (20, 0, 255)))
+            env.close()
+            self.assertIsNone(pygame.display.get_surface())
+            env.reset(seed=1)
+            self.assertEqual(shown(), (30, 0, 255))
 
 
 class Surroundings(unittest.TestCase):
@@ -341,6 +369,17 @@ class Surroundings(unittest.TestCase):
             del os.environ["ENSONIFY_BIN"]
             with self.assertRaisesRegex(ensonify.RunError, "^the program `ensonify` is not on PATH; ENSONIFY_BIN can name the folder"):
                 environment().reset()
+
+    def test_a_window_without_pygame_or_a_display_says_what_it_lacks(self):
+        with mock.patch.dict(sys.modules, {"pygame": None}):
+            with self.assertRaisesRegex(ImportError, "^render_mode='human' needs pygame: pip install 'ensonify\\[human\\]'; without it 'rgb_array'"):
+                environment(image="eye/ping", render_mode="human")
+        if WINDOWS:
+            with mock.patch.dict(os.environ):
+                for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
+                    os.environ.pop(name, None)
+                with self.assertRaisesRegex(RuntimeError, "^render_mode='human' needs a display; without one 'rgb_array' is allowed, or None$"):
+                    environment(image="eye/ping", render_mode="human")
 
     def test_without_gymnasium_the_rest_of_the_client_works(self):
         program = "import sys; sys.modules['gymnasium'] = None; import ensonify; ensonify.Observer; ensonify.Env"
