@@ -5,6 +5,7 @@ from typing import Any, Callable, Mapping
 import gymnasium
 
 from ensonify.acts import Act
+from ensonify.arguments import mapping, one_of
 from ensonify.episode import Seen
 from ensonify.messages import Labels, Mesh, Object, ObjectMesh, Pose, Tile
 from ensonify.spaces import Array, Fields, Rows
@@ -26,10 +27,13 @@ class Agent:
 
     def __init__(self, *, observe: Mapping[str, Fields | Array | Rows], act: Act, reward: Callable[[Seen], float],
                  done: Callable[[Seen], bool] = lambda seen: False):
-        self.observe, self.act = dict(observe), act
+        self.observe = mapping("observe", observe, "topics and what of them is observed")
+        for topic, part in self.observe.items():
+            one_of(f"observe: {topic}", part, (Fields, Array, Rows), "ensonify.Fields, ensonify.Array, ensonify.Rows")
+        self.act = one_of("act", act, (Act,), "ensonify.steer(...), ensonify.goto(...), ensonify.Act(...)")
         self._reward, self._done = reward, done
         self.observation_space = gymnasium.spaces.Dict(
-            {key: space for topic, part in observe.items() for key, space in part.spaces(topic).items()})
+            {key: space for topic, part in self.observe.items() for key, space in part.spaces(topic).items()})
         self.action_space = act.space
 
     def observation(self, seen: Seen) -> dict:
@@ -39,7 +43,11 @@ class Agent:
 
     def judged(self, seen: Seen) -> tuple:
         """Its reward, and whether it is done."""
-        reward = float(self._reward(seen))
+        given = self._reward(seen)
+        try:
+            reward = float(given)
+        except (TypeError, ValueError):
+            raise TypeError(f"the reward at t = {seen.t_s:.3f} s is {given!r}, which is no number") from None
         if not math.isfinite(reward):
             raise ValueError(f"the reward at t = {seen.t_s:.3f} s is {reward}")
         return reward, bool(self._done(seen))

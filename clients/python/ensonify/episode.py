@@ -136,12 +136,16 @@ class Episode:
         self._launch.wait()
 
     def _stalled(self, error: RunError) -> RunError:
-        """The same with the names of those that have been granted time and do not answer."""
+        """The same with the names of those that have not joined, or have been granted time and do not answer."""
         try:
             with Observer(self._launch.clock) as run:
-                busy = [each["name"] for each in run.ask("status")["participants"] if each["running"]]
+                status = run.ask("status")
+                missing = status.get("missing")  # while they join
+                busy = [each["name"] for each in status["participants"] if each["running"]]
         except (RunError, KeyError):
             return error
+        if missing:
+            return RunError(f"{', '.join(missing)}: has not joined; {error}", EXIT_STALL, missing[0])
         return RunError(f"{', '.join(busy)}: no answer; {error}", EXIT_STALL, busy[0]) if busy else error
 
     def _go(self, *, interrupt: bool) -> None:

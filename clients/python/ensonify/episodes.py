@@ -10,6 +10,7 @@ import gymnasium
 import numpy as np
 
 from ensonify.agent import Agent, kept_of, topics_of
+from ensonify.arguments import mapping, one_of, positive
 from ensonify.episode import Episode, Seen
 from ensonify.images import picture
 from ensonify.messages import Ping
@@ -38,7 +39,9 @@ class Episodes:
                  rate: Any = 10, seconds: float = math.inf, image: str | Callable[[Seen], np.ndarray] | None = None, set: Mapping[str, Any] | None = None,
                  agent: str = "agent", out: str | os.PathLike | None = None, settle_s: float = 10.0, patience_s: float = 300.0,
                  render_mode: str | None = None, fps: float = 10):
-        truth = dict(truth or {})
+        truth = mapping("truth", truth or {}, "topics and their message types")
+        for topic, message_type in truth.items():
+            one_of(f"truth: {topic}", message_type, (type,), "a message type, such as ensonify.Altitude")
         for each in agents.values():
             each.refuse_truth(truth)
         if render_mode not in RENDER_MODES:
@@ -46,7 +49,7 @@ class Episodes:
         if render_mode and not image:
             raise ValueError(f"render_mode={render_mode!r} needs image=: the topic of a head's pings, or a function of what is seen")
         self.render_mode = render_mode
-        self._window = Window(pathlib.Path(launch).stem, fps) if render_mode == "human" else None
+        self._window = Window(pathlib.Path(launch).stem, positive("fps", fps)) if render_mode == "human" else None
         self._topics = topics_of(agents) | truth
         self._kept = kept_of(agents)
         self._picture = image
@@ -54,9 +57,9 @@ class Episodes:
             self._topics.setdefault(image, Ping)
             self._picture = lambda seen: picture(seen[image])
         self._ports = {port: each.act.message_type for port, each in agents.items()}
-        self._launch, self._process, self._rate, self._seconds = launch, agent, rate, seconds
-        self._set, self._out = dict(set or {}), out
-        self._settle_s, self._patience_s = settle_s, patience_s
+        self._launch, self._process, self._rate, self._seconds = launch, agent, rate, positive("seconds", seconds)
+        self._set, self._out = mapping("set", set or {}, "parameters and their values"), out
+        self._settle_s, self._patience_s = positive("settle_s", settle_s), positive("patience_s", patience_s)
         self._count = 0  # so far
         self._running = Running()
         self._end_at_exit = weakref.finalize(self, self._running.end)
@@ -66,8 +69,8 @@ class Episodes:
     def begin(self, seed: int, options: Mapping[str, Any] | None) -> Seen:
         """Another episode, until all topics have come: in the processes of the one before, or in a new launch. `seed` is the
         scenario's."""
-        options = dict(options or {})
-        settings = {**self._set, **options.pop("set", {})}
+        options = mapping("options", options or {}, "'set' and parameters")
+        settings = {**self._set, **mapping("options: set", options.pop("set", {}), "parameters and their values")}
         if options:
             raise ValueError(f"options has {', '.join(map(repr, options))}; allowed: 'set'")
         if "seed" in settings:
@@ -116,7 +119,7 @@ class Episodes:
             return None
         if self._running.episode is None:
             raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
-        return self._picture(self._running.episode.seen)
+        return self._drawn(self._running.episode.seen)
 
     def close(self) -> None:
         """Ends the launch and waits for its end."""
@@ -127,7 +130,13 @@ class Episodes:
 
     def _show(self, seen: Seen) -> None:
         if self._window:
-            self._window.show(self._picture(seen))
+            self._window.show(self._drawn(seen))
+
+    def _drawn(self, seen: Seen) -> np.ndarray:
+        drawn = np.asarray(self._picture(seen))
+        if drawn.ndim != 3 or drawn.shape[2] != 3 or drawn.dtype != np.uint8:
+            raise ValueError(f"image: the function's array is {drawn.dtype} of shape {drawn.shape}; a picture is uint8, rows x columns x 3")
+        return drawn
 
     def _folder(self) -> pathlib.Path | None:
         self._count += 1

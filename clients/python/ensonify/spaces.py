@@ -62,6 +62,8 @@ class Rows:
     is of rows x columns; rows are 0 until as many messages have come."""
 
     def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
+        if len(space.shape) != 2:
+            raise ValueError(f"the space of Rows has shape {space.shape}; it must be rows x columns")
         self.message_type = message_type
         self.keeps = space.shape[0]
         self._row = Array(message_type, function, Box(space.low[0], space.high[0], dtype=space.dtype.type))
@@ -98,7 +100,10 @@ def box_of(field: dataclasses.Field) -> Box | None:
 
 def checked(action: Any, space: Box) -> np.ndarray:
     """The action as an array of the space. A TypeError or a ValueError says what is wrong with it."""
-    given = np.asarray(action)
+    try:
+        given = np.asarray(action)
+    except ValueError:
+        raise TypeError(f"the action {action!r} is no array of numbers") from None
     if given.dtype.kind not in "fiu" or not np.can_cast(given.dtype, space.dtype, "same_kind"):
         raise TypeError(f"an action of {given.dtype} does not fit {space.dtype}")
     if given.shape != space.shape:

@@ -83,9 +83,26 @@ class Spaces(unittest.TestCase):
                 ([0.0, np.nan], ValueError, r"^action\[1\]: nan is outside \[0, 5\]$"),
                 ([-1.5, 2.0], ValueError, r"^action\[0\]: -1.5 is outside \[-1, 1\]$"),
                 (["a", "b"], TypeError, r"^an action of <U1 does not fit float32$"),
+                ([[1], [2, 3]], TypeError, r"^the action \[\[1\], \[2, 3\]\] is no array of numbers$"),
                 ([1j, 0], TypeError, r"^an action of complex128 does not fit float32$")):
             with self.assertRaisesRegex(error, text):
                 checked(action, box)
+
+    def test_arguments_of_a_wrong_kind_are_named_before_anything_starts(self):
+        for changes, error, text in (
+                ({"observe": ["nav/altitude"]}, TypeError, r"^observe is \['nav/altitude'\]; it must be a dict of topics and"),
+                ({"observe": {"nav/altitude": 7}}, TypeError, r"^observe: nav/altitude is 7; allowed: ensonify.Fields, ensonify.Array, ensonify.Rows$"),
+                ({"act": None}, TypeError, r"^act is None; allowed: ensonify.steer\(...\)"),
+                ({"truth": ["judge/altitude"]}, TypeError, "^truth is "),
+                ({"truth": {"judge/altitude": None}}, TypeError, "^truth: judge/altitude is None; allowed: a message type, such as ensonify.Altitude$"),
+                ({"set": ["a=1"]}, TypeError, "^set is "),
+                ({"seconds": 0}, ValueError, "^seconds is 0; it must be a number above 0$"),
+                ({"patience_s": "long"}, ValueError, "^patience_s is 'long'; it must be a number above 0$")):
+            with self.assertRaisesRegex(error, text):
+                environment(**changes)
+        for options in ([1], {"set": ["a=1"]}):
+            with self.assertRaisesRegex(TypeError, "^options(: set)? is .*; it must be a dict"):
+                environment().reset(options=options)
 
     def test_steering_takes_what_is_a_range_from_the_action(self):
         act = ensonify.steer(heading_rad=(-np.pi, np.pi), speed_mps=1.5, depth_m=(0, 40))
@@ -280,6 +297,11 @@ class Episodes(unittest.TestCase):
             with self.assertRaisesRegex(ensonify.RunError, "alone.yaml: awaits nobody: it needs a process with `external: true`"):
                 self.make(launch=alone).reset()
 
+    def test_who_has_not_joined_is_named(self):
+        with self.assertRaisesRegex(ensonify.RunError, "^agent: has not joined; nav: the others have made no progress for 1 s$") as raised:
+            self.make(agent="nav", patience_s=1).reset(seed=1)
+        self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "agent"))
+
     def test_two_environments_do_not_share_a_folder(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
             first, second = self.make(out=folder), self.make(out=folder)
@@ -292,6 +314,10 @@ class Episodes(unittest.TestCase):
         env = self.make(reward=lambda seen: -float(seen.action[0]))
         env.reset(seed=1, options={"set": {"nav.altimeter.rotation_deg": np.zeros(3)}})
         self.assertEqual(env.step(np.float32([20]))[1], -20)
+        env = self.make(reward=lambda seen: None)
+        env.reset(seed=1)
+        with self.assertRaisesRegex(TypeError, "^the reward at t = [0-9.]+ s is None, which is no number$"):
+            env.step(np.float32([20]))
         env = self.make(reward=lambda seen: float("nan"))
         env.reset(seed=1)
         with self.assertRaisesRegex(ValueError, "^the reward at t = [0-9.]+ s is nan$"):

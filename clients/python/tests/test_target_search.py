@@ -42,6 +42,8 @@ class Parts(unittest.TestCase):
         wide = ensonify.Rows(ensonify.Depth, lambda depth: [depth.depth_m], gymnasium.spaces.Box(0, 255, (3, 2), np.uint8))
         with self.assertRaisesRegex(ValueError, r"^nav/depth: the function's array has shape \(1,\), its space \(2,\)$"):
             wide.values("nav/depth", depths)
+        with self.assertRaisesRegex(ValueError, r"^the space of Rows has shape \(4,\); it must be rows x columns$"):
+            ensonify.Rows(ensonify.Depth, lambda depth: [1], gymnasium.spaces.Box(0, 255, (4,)))
 
     def test_a_line_has_port_left_far_outside_and_the_operators_gain(self):
         amplitude = np.zeros((2, 800), np.float32)
