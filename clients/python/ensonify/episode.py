@@ -46,7 +46,9 @@ class Seen:
         return self._new[topic]
 
     def last(self, topic: str) -> list:
-        """The newest messages of a topic that ensonify.Rows makes a picture of, in order: as many as that has rows, or fewer."""
+        """The newest messages of a topic, in order: as many as ensonify.Rows has rows or the `keeps` of an image says, or fewer."""
+        if topic not in self._kept:
+            raise KeyError(f"{topic} is kept neither for ensonify.Rows nor by the `keeps` of an image")
         return self._kept[topic]
 
 

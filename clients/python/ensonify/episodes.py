@@ -26,7 +26,8 @@ class Episodes:
     truth: topics and message types that reward and done read besides: what must not be observed
     rate: steps per second of sim time
     seconds: sim time after which an episode is truncated
-    image: what render() draws: the topic of a head's pings, or a function that makes a picture (rows x columns x 3 bytes) of what is Seen
+    image: what render() draws: the topic of a head's pings, or a function that makes a picture (rows x columns x 3 bytes) of what is Seen;
+        its attribute `keeps`, if any, says of how many of the newest messages by topic: seen.last(topic)
     render_mode: None, "rgb_array", for render(), or "human": a window that shows each step, `fps` a second at the most
     set: parameters in every episode, as `--set`; reset(options={"set": {...}}) adds to them
     agent: the process, which the launch file marks `external: true`
@@ -53,6 +54,9 @@ class Episodes:
         self._topics = topics_of(agents) | truth
         self._kept = kept_of(agents)
         self._picture = image
+        if render_mode:
+            for topic, count in getattr(image, "keeps", {}).items():
+                self._kept[topic] = max(count, self._kept.get(topic, 0))
         if render_mode and isinstance(image, str):
             self._topics.setdefault(image, Ping)
             self._picture = lambda seen: picture(seen[image])

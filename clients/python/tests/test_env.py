@@ -22,6 +22,7 @@ from ensonify.images import picture
 from ensonify.spaces import checked
 from ensonify.tasks import TASKS
 from ensonify.tasks.__main__ import measured
+from ensonify.tasks.profile import SEABED, TRACK, Profile
 from ensonify.tasks.wall_follow import image
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -348,6 +349,15 @@ class Episodes(unittest.TestCase):
         seen = image(ping)
         self.assertEqual((seen.shape, seen.dtype), ((64, 64), np.uint8))
         self.assertEqual([(*map(int, at), int(seen[tuple(at)])) for at in np.argwhere(seen)], [(0, 63, 128), (63, 0, 255)])
+
+    def test_a_dive_is_drawn_over_the_seabed_that_was_measured(self):
+        past = {"nav/depth": [ensonify.Depth(depth_m=depth_m) for depth_m in (5.0, 10.0, 20.0)],
+                "nav/altitude": [ensonify.Altitude(valid=valid, range_m=10.0) for valid in (True, False, True)]}
+        drawn = Profile()(mock.Mock(last=past.get))
+        self.assertEqual((drawn.shape, drawn.dtype), ((160, 300, 3), np.uint8))
+        track, seabed = ((drawn == colour).all(axis=2) for colour in (TRACK, SEABED))
+        self.assertEqual([np.flatnonzero(column).mean() / 4 for column in track.T[-3:]], [5 - 0.125, 10 - 0.125, 20 - 0.125])
+        self.assertEqual(seabed.sum(axis=0)[-4:].tolist(), [0, 100, 0, 40])  # 25 m and 10 m of it down to 40 m
 
     def test_a_head_renders(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
