@@ -1,6 +1,7 @@
 """An agent: what it observes, does and earns. ensonify.Env has one, ensonify.ParallelEnv one for each vehicle."""
 import math
-from typing import Any, Callable, Mapping
+from collections.abc import Callable
+from typing import Any, Mapping
 
 import gymnasium
 
@@ -31,7 +32,8 @@ class Agent:
         for topic, part in self.observe.items():
             one_of(f"observe: {topic}", part, (Fields, Array, Rows), "ensonify.Fields, ensonify.Array, ensonify.Rows")
         self.act = one_of("act", act, (Act,), "ensonify.steer(...), ensonify.goto(...), ensonify.Act(...)")
-        self._reward, self._done = reward, done
+        self._reward = one_of("reward", reward, (Callable,), "a function of what is Seen")
+        self._done = one_of("done", done, (Callable,), "a function of what is Seen")
         self.observation_space = gymnasium.spaces.Dict(
             {key: space for topic, part in self.observe.items() for key, space in part.spaces(topic).items()})
         self.action_space = act.space

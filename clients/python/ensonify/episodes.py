@@ -4,7 +4,8 @@ import os
 import pathlib
 import tempfile
 import weakref
-from typing import Any, Callable, Mapping
+from collections.abc import Callable
+from typing import Any, Mapping
 
 import gymnasium
 import numpy as np
@@ -49,6 +50,7 @@ class Episodes:
             raise ValueError(f"render_mode is {render_mode!r}; allowed: {', '.join(map(repr, RENDER_MODES))}")
         if render_mode and not image:
             raise ValueError(f"render_mode={render_mode!r} needs image=: the topic of a head's pings, or a function of what is seen")
+        one_of("image", image, (type(None), str, Callable), "a topic, a function of what is Seen")
         self.render_mode = render_mode
         self._window = Window(pathlib.Path(launch).stem, positive("fps", fps)) if render_mode == "human" else None
         self._topics = topics_of(agents) | truth

@@ -13,6 +13,7 @@ import numpy as np
 import pettingzoo
 
 from ensonify.agent import Agent
+from ensonify.arguments import mapping, one_of
 from ensonify.episodes import Episodes, drawn_seed
 from ensonify.spaces import checked
 
@@ -28,9 +29,12 @@ class ParallelEnv(pettingzoo.ParallelEnv):
     metadata = {"name": "ensonify", "render_modes": ["rgb_array", "human"], "render_fps": 10}
 
     def __init__(self, launch: str | os.PathLike, *, agents: Mapping[str, Agent], **keywords: Any):
-        for name in agents:
+        for name, agent in mapping("agents", agents, "names and agents").items():
+            one_of(f"agents: {name}", agent, (Agent,), "ensonify.Agent(...)")
             if not re.fullmatch(r"\w+", name, re.ASCII):
                 raise ValueError(f"agent {name!r}: a name has letters, digits and _")
+        if not agents:
+            raise ValueError("agents is empty; there must be one")
         self._all = dict(agents)
         self._ports = {name: f"{agent.act.port}_{name}" for name, agent in agents.items()}
         self._episodes = Episodes(launch, {self._ports[name]: agent for name, agent in agents.items()}, **keywords)

@@ -6,6 +6,7 @@ from typing import Any, Callable, Sequence
 import gymnasium
 import numpy as np
 
+from ensonify.arguments import one_of
 from ensonify.typed import Message
 
 Box = gymnasium.spaces.Box
@@ -16,6 +17,8 @@ class Fields:
     Without names all fields but the stamp."""
 
     def __init__(self, message_type: type, *names: str):
+        if not dataclasses.is_dataclass(message_type):
+            raise TypeError(f"Fields of {message_type!r}; allowed: a message type, such as ensonify.Altitude")
         self.message_type = message_type
         known = {field.name: field for field in dataclasses.fields(message_type)}
         for name in names:
@@ -43,7 +46,7 @@ class Array:
     def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
         self.message_type = message_type
         self._function = function
-        self._space = space
+        self._space = one_of("the space of an Array", space, (Box,), "a gymnasium.spaces.Box")
 
     def spaces(self, topic: str) -> dict:
         """The space, under the topic's name."""

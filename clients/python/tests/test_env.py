@@ -93,6 +93,9 @@ class Spaces(unittest.TestCase):
         for changes, error, text in (
                 ({"observe": ["nav/altitude"]}, TypeError, r"^observe is \['nav/altitude'\]; it must be a dict of topics and"),
                 ({"observe": {"nav/altitude": 7}}, TypeError, r"^observe: nav/altitude is 7; allowed: ensonify.Fields, ensonify.Array, ensonify.Rows$"),
+                ({"reward": 3}, TypeError, "^reward is 3; allowed: a function of what is Seen$"),
+                ({"done": True}, TypeError, "^done is True; allowed: a function of what is Seen$"),
+                ({"image": 3, "render_mode": "rgb_array"}, TypeError, "^image is 3; allowed: a topic, a function of what is Seen$"),
                 ({"act": None}, TypeError, r"^act is None; allowed: ensonify.steer\(...\)"),
                 ({"truth": ["judge/altitude"]}, TypeError, "^truth is "),
                 ({"truth": {"judge/altitude": None}}, TypeError, "^truth: judge/altitude is None; allowed: a message type, such as ensonify.Altitude$"),
@@ -101,6 +104,10 @@ class Spaces(unittest.TestCase):
                 ({"patience_s": "long"}, ValueError, "^patience_s is 'long'; it must be a number above 0$")):
             with self.assertRaisesRegex(error, text):
                 environment(**changes)
+        with self.assertRaisesRegex(TypeError, "^Fields of 'altitude/1'; allowed: a message type, such as ensonify.Altitude$"):
+            ensonify.Fields("altitude/1")
+        with self.assertRaisesRegex(TypeError, "^the space of an Act is Discrete\\(3\\); allowed: a gymnasium.spaces.Box$"):
+            ensonify.Act(ensonify.Guidance, lambda action, seen: None, gymnasium.spaces.Discrete(3))
         for options in ([1], {"set": ["a=1"]}):
             with self.assertRaisesRegex(TypeError, "^options(: set)? is .*; it must be a dict"):
                 environment().reset(options=options)
@@ -142,6 +149,8 @@ class Spaces(unittest.TestCase):
             environment(act=ensonify.steer(altitude_m=(3, 12), altimeter="judge/altitude"))
         with self.assertRaisesRegex(ValueError, "^auv/pose is pose/1, which is truth"):
             environment(observe={"auv/pose": ensonify.Fields(ensonify.Pose)})
+        with self.assertRaisesRegex(ValueError, "^pager/object is object/1, which is truth"):
+            environment(observe={"pager/object": ensonify.Fields(ensonify.Object, "instance")})
 
 
 class Episodes(unittest.TestCase):
