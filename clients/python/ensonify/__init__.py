@@ -15,7 +15,7 @@ __version__ = "0.1.0"
 
 # What needs Gymnasium or PettingZoo, and where it is.
 _GYM = {"Env": "environment", "ParallelEnv": "parallel", "Agent": "agent", "TruthError": "agent", "Seen": "episode",
-        "Fields": "spaces", "Array": "spaces", "Act": "acts", "steer": "acts", "goto": "acts"}
+        "Fields": "spaces", "Array": "spaces", "Rows": "spaces", "Act": "acts", "steer": "acts", "goto": "acts"}
 _EXTRAS = {"gymnasium": "Gymnasium: pip install 'ensonify[gym]'", "pettingzoo": "PettingZoo: pip install 'ensonify[pettingzoo]'"}
 
 

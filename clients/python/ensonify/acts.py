@@ -5,6 +5,7 @@ from typing import Any, Callable, Mapping
 import gymnasium
 import numpy as np
 
+from ensonify.arguments import one_of
 from ensonify.messages import Altitude, Depth, Estimate, Guidance
 from ensonify.typed import Message
 
@@ -19,7 +20,7 @@ class Act:
                  reads: Mapping[str, type] | None = None):
         self.message_type = message_type
         self.function = function
-        self.space = space
+        self.space = one_of("the space of an Act", space, (Box,), "a gymnasium.spaces.Box")
         self.port = port
         self.reads = dict(reads or {})
 

@@ -18,19 +18,19 @@ from ensonify.acts import Act
 from ensonify.agent import Agent
 from ensonify.episode import Seen
 from ensonify.episodes import Episodes, drawn_seed
-from ensonify.spaces import Array, Fields, checked
+from ensonify.spaces import Array, Fields, Rows, checked
 
 
 class Env(gymnasium.Env):
     """A process of a launch, as an environment: the one that the launch file calls `agent` and marks `external: true`.
 
     observe, act, reward, done: as of ensonify.agent.Agent; done ends the episode
-    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, as of ensonify.episodes.Episodes
+    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, fps, as of ensonify.episodes.Episodes
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 10}
 
-    def __init__(self, launch: str | os.PathLike, *, observe: Mapping[str, Fields | Array], act: Act,
+    def __init__(self, launch: str | os.PathLike, *, observe: Mapping[str, Fields | Array | Rows], act: Act,
                  reward: Callable[[Seen], float], done: Callable[[Seen], bool] = lambda seen: False, **keywords: Any):
         self._agent = Agent(observe=observe, act=act, reward=reward, done=done)
         self._episodes = Episodes(launch, {act.port: self._agent}, **keywords)
@@ -58,7 +58,7 @@ class Env(gymnasium.Env):
         return self._agent.observation(seen), reward, terminated, truncated, {"t_s": seen.t_s}
 
     def render(self) -> np.ndarray | None:
-        """The newest ping of `image`, as ensonify.images.picture draws it."""
+        """The picture of `image` with render_mode="rgb_array"; a window shows it by itself."""
         return self._episodes.render()
 
     def close(self) -> None:

@@ -1,4 +1,5 @@
 """Episodes: a launch with us as one of its processes, stepped event by event, and reset for another episode."""
+import collections
 import copy
 import pathlib
 from typing import Any, Mapping
@@ -16,11 +17,12 @@ DEADLINE_S = 3600
 class Seen:
     """What is known at a step: `seen[topic]` is the newest message, None before the first."""
 
-    def __init__(self, t_ns: int, inputs: Mapping[str, Any]):
+    def __init__(self, t_ns: int, inputs: Mapping[str, Any], kept: Mapping[str, Any]):
         self.t_ns = t_ns  # sim time of the step
         self.action: Any = None  # that was taken for it, an array of the action space; None after a reset
         self._latest = {topic: port.latest for topic, port in inputs.items()}
         self._new = {topic: [received.content for received in port.received] for topic, port in inputs.items()}
+        self._kept = {topic: list(messages) for topic, messages in kept.items()}
 
     @property
     def t_s(self) -> float:
@@ -43,6 +45,12 @@ class Seen:
         self[topic]
         return self._new[topic]
 
+    def last(self, topic: str) -> list:
+        """The newest messages of a topic, in order: as many as ensonify.Rows has rows or the `keeps` of an image says, or fewer."""
+        if topic not in self._kept:
+            raise KeyError(f"{topic} is kept neither for ensonify.Rows nor by the `keeps` of an image")
+        return self._kept[topic]
+
 
 def texts_of(settings: Mapping[str, Any]) -> dict:
     """Parameters as --set takes them, by key."""
@@ -50,14 +58,16 @@ def texts_of(settings: Mapping[str, Any]) -> dict:
 
 
 class Episode:
-    """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type."""
+    """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type.
+    Of the topics in `kept` it keeps so many of the newest messages."""
 
     def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
-                 ports: Mapping[str, type], rate: Any, patience_s: float):
+                 kept: Mapping[str, int], ports: Mapping[str, type], rate: Any, patience_s: float):
         self._settings = texts_of(settings)  # of the launch, which every epoch has
         self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
         self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
         self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
+        self._kept = {topic: collections.deque(maxlen=count) for topic, count in kept.items()}
         self._outputs = {port: self._me.publish(port, message_type, rate=rate, max_bytes=1 << 16)
                          for port, message_type in ports.items()}
         self._rate = rate
@@ -73,6 +83,8 @@ class Episode:
         if next(self._epochs, None) is None:
             raise RunError("the run has ended", EXIT_DIED)
         self._steps = self._me.steps(rate=self._rate)
+        for messages in self._kept.values():
+            messages.clear()
         self.step()
 
     def reset(self, settings: Mapping[str, Any], out: pathlib.Path) -> bool:
@@ -108,7 +120,9 @@ class Episode:
         if event is None:
             self._go(interrupt=False)
             raise self._launch.fault()
-        self.seen = Seen(event.t_ns, self._inputs)
+        for topic, messages in self._kept.items():
+            messages.extend(self._inputs[topic])
+        self.seen = Seen(event.t_ns, self._inputs, self._kept)
         return self.seen
 
     def end(self) -> None:
@@ -124,12 +138,16 @@ class Episode:
         self._launch.wait()
 
     def _stalled(self, error: RunError) -> RunError:
-        """The same with the names of those that have been granted time and do not answer."""
+        """The same with the names of those that have not joined, or have been granted time and do not answer."""
         try:
             with Observer(self._launch.clock) as run:
-                busy = [each["name"] for each in run.ask("status")["participants"] if each["running"]]
+                status = run.ask("status")
+                missing = status.get("missing")  # while they join
+                busy = [each["name"] for each in status["participants"] if each["running"]]
         except (RunError, KeyError):
             return error
+        if missing:
+            return RunError(f"{', '.join(missing)}: has not joined; {error}", EXIT_STALL, missing[0])
         return RunError(f"{', '.join(busy)}: no answer; {error}", EXIT_STALL, busy[0]) if busy else error
 
     def _go(self, *, interrupt: bool) -> None:

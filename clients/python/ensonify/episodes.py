@@ -4,16 +4,21 @@ import os
 import pathlib
 import tempfile
 import weakref
-from typing import Any, Callable, Mapping
+from collections.abc import Callable
+from typing import Any, Mapping
 
 import gymnasium
 import numpy as np
 
-from ensonify.agent import Agent, topics_of
+from ensonify.agent import Agent, kept_of, topics_of
+from ensonify.arguments import mapping, one_of, positive
 from ensonify.episode import Episode, Seen
 from ensonify.images import picture
 from ensonify.messages import Ping
 from ensonify.typed import Message
+from ensonify.window import Window
+
+RENDER_MODES = (None, "rgb_array", "human")
 
 
 class Episodes:
@@ -22,7 +27,9 @@ class Episodes:
     truth: topics and message types that reward and done read besides: what must not be observed
     rate: steps per second of sim time
     seconds: sim time after which an episode is truncated
-    image: topic of a head's pings, for render() with render_mode="rgb_array"
+    image: what render() draws: the topic of a head's pings, or a function that makes a picture (rows x columns x 3 bytes) of what is Seen;
+        its attribute `keeps`, if any, says of how many of the newest messages by topic: seen.last(topic)
+    render_mode: None, "rgb_array", for render(), or "human": a window that shows each step, `fps` a second at the most
     set: parameters in every episode, as `--set`; reset(options={"set": {...}}) adds to them
     agent: the process, which the launch file marks `external: true`
     out: folder in which episodes leave their results (0000, 0001, ...); without it they leave none
@@ -31,25 +38,34 @@ class Episodes:
     """
 
     def __init__(self, launch: str | os.PathLike, agents: Mapping[str, Agent], *, truth: Mapping[str, type] | None = None,
-                 rate: Any = 10, seconds: float = math.inf, image: str | None = None, set: Mapping[str, Any] | None = None,
+                 rate: Any = 10, seconds: float = math.inf, image: str | Callable[[Seen], np.ndarray] | None = None, set: Mapping[str, Any] | None = None,
                  agent: str = "agent", out: str | os.PathLike | None = None, settle_s: float = 10.0, patience_s: float = 300.0,
-                 render_mode: str | None = None):
-        truth = dict(truth or {})
+                 render_mode: str | None = None, fps: float = 10):
+        truth = mapping("truth", truth or {}, "topics and their message types")
+        for topic, message_type in truth.items():
+            one_of(f"truth: {topic}", message_type, (type,), "a message type, such as ensonify.Altitude")
         for each in agents.values():
             each.refuse_truth(truth)
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {render_mode!r}; allowed: None, 'rgb_array'")
+        if render_mode not in RENDER_MODES:
+            raise ValueError(f"render_mode is {render_mode!r}; allowed: {', '.join(map(repr, RENDER_MODES))}")
         if render_mode and not image:
-            raise ValueError("render_mode='rgb_array' needs image=TOPIC, the pings of a head")
+            raise ValueError(f"render_mode={render_mode!r} needs image=: the topic of a head's pings, or a function of what is seen")
+        one_of("image", image, (type(None), str, Callable), "a topic, a function of what is Seen")
         self.render_mode = render_mode
+        self._window = Window(pathlib.Path(launch).stem, positive("fps", fps)) if render_mode == "human" else None
         self._topics = topics_of(agents) | truth
-        self._image = image if render_mode else None
-        if self._image:
-            self._topics.setdefault(self._image, Ping)
+        self._kept = kept_of(agents)
+        self._picture = image
+        if render_mode:
+            for topic, count in getattr(image, "keeps", {}).items():
+                self._kept[topic] = max(count, self._kept.get(topic, 0))
+        if render_mode and isinstance(image, str):
+            self._topics.setdefault(image, Ping)
+            self._picture = lambda seen: picture(seen[image])
         self._ports = {port: each.act.message_type for port, each in agents.items()}
-        self._launch, self._process, self._rate, self._seconds = launch, agent, rate, seconds
-        self._set, self._out = dict(set or {}), out
-        self._settle_s, self._patience_s = settle_s, patience_s
+        self._launch, self._process, self._rate, self._seconds = launch, agent, rate, positive("seconds", seconds)
+        self._set, self._out = mapping("set", set or {}, "parameters and their values"), out
+        self._settle_s, self._patience_s = positive("settle_s", settle_s), positive("patience_s", patience_s)
         self._count = 0  # so far
         self._running = Running()
         self._end_at_exit = weakref.finalize(self, self._running.end)
@@ -59,8 +75,8 @@ class Episodes:
     def begin(self, seed: int, options: Mapping[str, Any] | None) -> Seen:
         """Another episode, until all topics have come: in the processes of the one before, or in a new launch. `seed` is the
         scenario's."""
-        options = dict(options or {})
-        settings = {**self._set, **options.pop("set", {})}
+        options = mapping("options", options or {}, "'set' and parameters")
+        settings = {**self._set, **mapping("options: set", options.pop("set", {}), "parameters and their values")}
         if options:
             raise ValueError(f"options has {', '.join(map(repr, options))}; allowed: 'set'")
         if "seed" in settings:
@@ -68,7 +84,7 @@ class Episodes:
         self._ended = "there is no episode yet"
         settings["seed"] = seed
         seen = self._running.begin(lambda out: Episode(
-            self._launch, self._process, out, settings, self._topics, self._ports, self._rate, self._patience_s),
+            self._launch, self._process, out, settings, self._topics, self._kept, self._ports, self._rate, self._patience_s),
             settings, self._folder())
         while missing := [topic for topic in self._topics if seen[topic] is None]:
             if seen.t_s >= self._settle_s:
@@ -77,6 +93,7 @@ class Episodes:
             seen = self._running.episode.step()
         self._began_s = seen.t_s
         self._ended = ""
+        self._show(seen)
         return seen
 
     def need_reset(self) -> None:
@@ -87,10 +104,12 @@ class Episodes:
     def step(self, messages: Mapping[str, Message]) -> Seen:
         """Publishes a message on each port that is named, and goes on to the next step."""
         try:
-            return self._running.episode.step(messages)
+            seen = self._running.episode.step(messages)
         except BaseException:
             self._ended = "the episode broke off"
             raise
+        self._show(seen)
+        return seen
 
     def late(self, seen: Seen) -> bool:
         """Whether the episode is as long as it may be."""
@@ -101,17 +120,29 @@ class Episodes:
         self._ended = "the episode has ended"
 
     def render(self) -> np.ndarray | None:
-        """The newest ping of `image`, as ensonify.images.picture draws it."""
-        if not self._image:
+        """What `image` makes of what was seen last, where the mode is rgb_array."""
+        if self.render_mode != "rgb_array":
             return None
         if self._running.episode is None:
             raise gymnasium.error.ResetNeeded(f"{self._ended}: call reset() first")
-        return picture(self._running.episode.seen[self._image])
+        return self._drawn(self._running.episode.seen)
 
     def close(self) -> None:
         """Ends the launch and waits for its end."""
         self._ended = self._ended or "the environment was closed"
         self._running.end()
+        if self._window:
+            self._window.close()
+
+    def _show(self, seen: Seen) -> None:
+        if self._window:
+            self._window.show(self._drawn(seen))
+
+    def _drawn(self, seen: Seen) -> np.ndarray:
+        drawn = np.asarray(self._picture(seen))
+        if drawn.ndim != 3 or drawn.shape[2] != 3 or drawn.dtype != np.uint8:
+            raise ValueError(f"image: the function's array is {drawn.dtype} of shape {drawn.shape}; a picture is uint8, rows x columns x 3")
+        return drawn
 
     def _folder(self) -> pathlib.Path | None:
         self._count += 1

@@ -1,4 +1,4 @@
-"""A ping as a picture."""
+"""Pictures: rows x columns x 3 bytes, the first row at the top."""
 import numpy as np
 
 from ensonify.messages import Ping
@@ -12,6 +12,11 @@ def picture(ping: Ping) -> np.ndarray:
     if not linear.size:
         return np.zeros((1, 1, 3), np.uint8)
     level_db = 20 * np.log10(np.maximum(linear.astype(np.float32), 1e-6))
-    grey = np.rint(np.clip(255 * (1 + (level_db - level_db.max()) / SHOWN_DB), 0, 255)).astype(np.uint8)
-    port_first = grey[np.argsort(ping.beam_angle_rad, kind="stable")] if ping.beam_angle_rad.size == len(grey) else grey
-    return np.repeat(port_first.T[::-1, :, None], 3, axis=2)
+    level = np.rint(np.clip(255 * (1 + (level_db - level_db.max()) / SHOWN_DB), 0, 255)).astype(np.uint8)
+    port_first = level[np.argsort(ping.beam_angle_rad, kind="stable")] if ping.beam_angle_rad.size == len(level) else level
+    return grey(port_first.T[::-1])
+
+
+def grey(level: np.ndarray) -> np.ndarray:
+    """A picture of bytes, 0 is black."""
+    return np.repeat(level[:, :, None], 3, axis=2)

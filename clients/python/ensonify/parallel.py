@@ -13,6 +13,7 @@ import numpy as np
 import pettingzoo
 
 from ensonify.agent import Agent
+from ensonify.arguments import mapping, one_of
 from ensonify.episodes import Episodes, drawn_seed
 from ensonify.spaces import checked
 
@@ -22,15 +23,18 @@ class ParallelEnv(pettingzoo.ParallelEnv):
     names, with `_red` behind it: command_red. In a launch without other wiring that steers the process `red`.
 
     agents: an ensonify.Agent by name, of letters, digits and _; one that is done leaves, and its last order stands
-    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, as of ensonify.episodes.Episodes
+    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, fps, as of ensonify.episodes.Episodes
     """
 
-    metadata = {"name": "ensonify", "render_modes": ["rgb_array"], "render_fps": 10}
+    metadata = {"name": "ensonify", "render_modes": ["rgb_array", "human"], "render_fps": 10}
 
     def __init__(self, launch: str | os.PathLike, *, agents: Mapping[str, Agent], **keywords: Any):
-        for name in agents:
+        for name, agent in mapping("agents", agents, "names and agents").items():
+            one_of(f"agents: {name}", agent, (Agent,), "ensonify.Agent(...)")
             if not re.fullmatch(r"\w+", name, re.ASCII):
                 raise ValueError(f"agent {name!r}: a name has letters, digits and _")
+        if not agents:
+            raise ValueError("agents is empty; there must be one")
         self._all = dict(agents)
         self._ports = {name: f"{agent.act.port}_{name}" for name, agent in agents.items()}
         self._episodes = Episodes(launch, {self._ports[name]: agent for name, agent in agents.items()}, **keywords)
@@ -80,7 +84,7 @@ class ParallelEnv(pettingzoo.ParallelEnv):
                 {name: {"t_s": seen.t_s} for name in actions})
 
     def render(self) -> np.ndarray | None:
-        """The newest ping of `image`, as ensonify.images.picture draws it."""
+        """The picture of `image` with render_mode="rgb_array"; a window shows it by itself."""
         return self._episodes.render()
 
     def close(self) -> None:

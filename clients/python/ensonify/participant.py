@@ -19,6 +19,7 @@ from typing import Any, Iterator, Mapping
 from ensonify import wire
 from ensonify.injections import Injector
 from ensonify.launching import assignments
+from ensonify.rate_limit import RateLimit
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
 from ensonify.typed import Message, declared_in
 
@@ -72,6 +73,7 @@ class Out:
         self.topic: str | None = None  # known once joined
         self.topic_id = 0
         self._topic_frame = b""
+        self._limit = RateLimit(rate)
         self._hash = wire.type_hash(message_type.TYPE)
 
     def declaration(self) -> dict:
@@ -79,8 +81,9 @@ class Out:
         return {"port": self.port, "type": self.message_type.TYPE, "max_bytes": self.max_bytes, "rate": list(self.rate)}
 
     def connect(self, topic: str, topic_id: int) -> None:
-        """The clock says what topic this port is."""
+        """The clock says what topic this port is, in each epoch."""
         self.topic, self.topic_id, self._topic_frame = topic, topic_id, topic.encode() + b"\0"
+        self._limit = RateLimit(self.rate)
 
     def send(self, message: Message) -> None:
         """Publishes at the current step's time. Arrays travel without a copy: do not write to them afterwards."""
@@ -93,6 +96,8 @@ class Out:
         size = sum(memoryview(part).nbytes for part in body)
         if size > self.max_bytes:
             raise ValueError(f"{self.port}: {size} bytes, at most {self.max_bytes} were declared")
+        if not self._limit.take(self._participant._now_ns):
+            raise ValueError(f"{self.port}: more than {self._limit}: publish(rate=...) declares how many there may be")
         self._participant._publish(self._topic_frame, self.topic_id, self._hash, body)
 
 
@@ -396,7 +401,10 @@ def as_fraction(rate) -> tuple:
     if isinstance(rate, tuple):
         num, den = rate
     else:
-        num, den = fractions.Fraction(rate).limit_denominator(1_000_000).as_integer_ratio()
+        try:
+            num, den = fractions.Fraction(rate).limit_denominator(1_000_000).as_integer_ratio()
+        except (TypeError, ValueError, OverflowError):
+            num, den = 0, 1
     if num <= 0 or den <= 0:
         raise ValueError(f"a rate is a positive number of events per second, not {rate!r}")
     return int(num), int(den)

@@ -1,10 +1,12 @@
 """Spaces for what messages carry, and what an agent may do with them."""
 import dataclasses
-from typing import Any, Callable
+import weakref
+from typing import Any, Callable, Sequence
 
 import gymnasium
 import numpy as np
 
+from ensonify.arguments import one_of
 from ensonify.typed import Message
 
 Box = gymnasium.spaces.Box
@@ -15,6 +17,8 @@ class Fields:
     Without names all fields but the stamp."""
 
     def __init__(self, message_type: type, *names: str):
+        if not dataclasses.is_dataclass(message_type):
+            raise TypeError(f"Fields of {message_type!r}; allowed: a message type, such as ensonify.Altitude")
         self.message_type = message_type
         known = {field.name: field for field in dataclasses.fields(message_type)}
         for name in names:
@@ -42,7 +46,7 @@ class Array:
     def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
         self.message_type = message_type
         self._function = function
-        self._space = space
+        self._space = one_of("the space of an Array", space, (Box,), "a gymnasium.spaces.Box")
 
     def spaces(self, topic: str) -> dict:
         """The space, under the topic's name."""
@@ -54,6 +58,33 @@ class Array:
         if value.shape != self._space.shape:
             raise ValueError(f"{topic}: the function's array has shape {value.shape}, its space {self._space.shape}")
         return {topic: value}
+
+
+class Rows:
+    """A picture of the newest messages, such as a sidescan's waterfall: a function makes a row of each, the newest is row 0. The space
+    is of rows x columns; rows are 0 until as many messages have come."""
+
+    def __init__(self, message_type: type, function: Callable[[Any], Any], space: Box):
+        if len(space.shape) != 2:
+            raise ValueError(f"the space of Rows has shape {space.shape}; it must be rows x columns")
+        self.message_type = message_type
+        self.keeps = space.shape[0]
+        self._row = Array(message_type, function, Box(space.low[0], space.high[0], dtype=space.dtype.type))
+        self._space = space
+        self._known: weakref.WeakKeyDictionary = weakref.WeakKeyDictionary()  # rows by their messages, as long as these are kept
+
+    def spaces(self, topic: str) -> dict:
+        """The space, under the topic's name."""
+        return {topic: self._space}
+
+    def values(self, topic: str, messages: Sequence[Message]) -> dict:
+        """What the function says of each message, the newest last. A ValueError where that is not a row of the space."""
+        picture = np.zeros(self._space.shape, self._space.dtype)
+        for at, message in enumerate(reversed(messages[-self.keeps:])):
+            if message not in self._known:
+                self._known[message] = self._row.values(topic, message)[topic]
+            picture[at] = self._known[message]
+        return {topic: picture}
 
 
 def box_of(field: dataclasses.Field) -> Box | None:
@@ -72,7 +103,10 @@ def box_of(field: dataclasses.Field) -> Box | None:
 
 def checked(action: Any, space: Box) -> np.ndarray:
     """The action as an array of the space. A TypeError or a ValueError says what is wrong with it."""
-    given = np.asarray(action)
+    try:
+        given = np.asarray(action)
+    except ValueError:
+        raise TypeError(f"the action {action!r} is no array of numbers") from None
     if given.dtype.kind not in "fiu" or not np.can_cast(given.dtype, space.dtype, "same_kind"):
         raise TypeError(f"an action of {given.dtype} does not fit {space.dtype}")
     if given.shape != space.shape:

@@ -1,5 +1,6 @@
 """The Gymnasium environment: spaces and actions by themselves, then episodes of launch/altitude_hold.yaml."""
 import importlib
+import importlib.util
 import os
 import pathlib
 import re
@@ -21,11 +22,16 @@ from ensonify.images import picture
 from ensonify.spaces import checked
 from ensonify.tasks import TASKS
 from ensonify.tasks.__main__ import measured
+from ensonify.tasks.profile import SEABED, TRACK, Profile
 from ensonify.tasks.wall_follow import image
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 TASK = "Ensonify/AltitudeHold-v0"
 LAUNCH = pathlib.Path(ensonify.__file__).parent / "tasks" / "altitude_hold.yaml"
+
+
+WINDOWS = importlib.util.find_spec("pygame") is not None
+NO_DISPLAY = {"SDL_VIDEODRIVER": "dummy", "PYGAME_HIDE_SUPPORT_PROMPT": "1"}
 
 
 def environment(**changes):
@@ -78,9 +84,33 @@ class Spaces(unittest.TestCase):
                 ([0.0, np.nan], ValueError, r"^action\[1\]: nan is outside \[0, 5\]$"),
                 ([-1.5, 2.0], ValueError, r"^action\[0\]: -1.5 is outside \[-1, 1\]$"),
                 (["a", "b"], TypeError, r"^an action of <U1 does not fit float32$"),
+                ([[1], [2, 3]], TypeError, r"^the action \[\[1\], \[2, 3\]\] is no array of numbers$"),
                 ([1j, 0], TypeError, r"^an action of complex128 does not fit float32$")):
             with self.assertRaisesRegex(error, text):
                 checked(action, box)
+
+    def test_arguments_of_a_wrong_kind_are_named_before_anything_starts(self):
+        for changes, error, text in (
+                ({"observe": ["nav/altitude"]}, TypeError, r"^observe is \['nav/altitude'\]; it must be a dict of topics and"),
+                ({"observe": {"nav/altitude": 7}}, TypeError, r"^observe: nav/altitude is 7; allowed: ensonify.Fields, ensonify.Array, ensonify.Rows$"),
+                ({"reward": 3}, TypeError, "^reward is 3; allowed: a function of what is Seen$"),
+                ({"done": True}, TypeError, "^done is True; allowed: a function of what is Seen$"),
+                ({"image": 3, "render_mode": "rgb_array"}, TypeError, "^image is 3; allowed: a topic, a function of what is Seen$"),
+                ({"act": None}, TypeError, r"^act is None; allowed: ensonify.steer\(...\)"),
+                ({"truth": ["judge/altitude"]}, TypeError, "^truth is "),
+                ({"truth": {"judge/altitude": None}}, TypeError, "^truth: judge/altitude is None; allowed: a message type, such as ensonify.Altitude$"),
+                ({"set": ["a=1"]}, TypeError, "^set is "),
+                ({"seconds": 0}, ValueError, "^seconds is 0; it must be a number above 0$"),
+                ({"patience_s": "long"}, ValueError, "^patience_s is 'long'; it must be a number above 0$")):
+            with self.assertRaisesRegex(error, text):
+                environment(**changes)
+        with self.assertRaisesRegex(TypeError, "^Fields of 'altitude/1'; allowed: a message type, such as ensonify.Altitude$"):
+            ensonify.Fields("altitude/1")
+        with self.assertRaisesRegex(TypeError, "^the space of an Act is Discrete\\(3\\); allowed: a gymnasium.spaces.Box$"):
+            ensonify.Act(ensonify.Guidance, lambda action, seen: None, gymnasium.spaces.Discrete(3))
+        for options in ([1], {"set": ["a=1"]}):
+            with self.assertRaisesRegex(TypeError, "^options(: set)? is .*; it must be a dict"):
+                environment().reset(options=options)
 
     def test_steering_takes_what_is_a_range_from_the_action(self):
         act = ensonify.steer(heading_rad=(-np.pi, np.pi), speed_mps=1.5, depth_m=(0, 40))
@@ -119,6 +149,8 @@ class Spaces(unittest.TestCase):
             environment(act=ensonify.steer(altitude_m=(3, 12), altimeter="judge/altitude"))
         with self.assertRaisesRegex(ValueError, "^auv/pose is pose/1, which is truth"):
             environment(observe={"auv/pose": ensonify.Fields(ensonify.Pose)})
+        with self.assertRaisesRegex(ValueError, "^pager/object is object/1, which is truth"):
+            environment(observe={"pager/object": ensonify.Fields(ensonify.Object, "instance")})
 
 
 class Episodes(unittest.TestCase):
@@ -133,7 +165,8 @@ class Episodes(unittest.TestCase):
             with warnings.catch_warnings():
                 warnings.simplefilter("error", UserWarning)
                 warnings.filterwarnings("ignore", message=".*observation space (minimum|maximum) value")
-                check_env(env.unwrapped)
+                with mock.patch.dict(os.environ, NO_DISPLAY):
+                    check_env(env.unwrapped, skip_render_check=not WINDOWS)
             env.close()
 
     def test_the_same_seed_and_actions_give_the_same_observations(self):
@@ -169,7 +202,7 @@ class Episodes(unittest.TestCase):
     def test_baselines_earn_what_the_manual_says(self):
         page = (ROOT / "docs/manual/gymnasium.md").read_text()
         for name, module in TASKS.items():
-            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((\d+) to (\d+)\) \|$", page, re.M).groups())
+            least, most = map(float, re.search(rf"^\| `{name}-v0`.*\((-?\d+) to (\d+)\) \|$", page, re.M).groups())
             env = gymnasium.make(f"Ensonify/{name}-v0")
             policy = importlib.import_module(f"ensonify.tasks.{module}").Baseline()
             total, _, _ = measured(env, policy, seed=101)
@@ -274,6 +307,11 @@ class Episodes(unittest.TestCase):
             with self.assertRaisesRegex(ensonify.RunError, "alone.yaml: awaits nobody: it needs a process with `external: true`"):
                 self.make(launch=alone).reset()
 
+    def test_who_has_not_joined_is_named(self):
+        with self.assertRaisesRegex(ensonify.RunError, "^agent: has not joined; nav: the others have made no progress for 1 s$") as raised:
+            self.make(agent="nav", patience_s=1).reset(seed=1)
+        self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "agent"))
+
     def test_two_environments_do_not_share_a_folder(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
             first, second = self.make(out=folder), self.make(out=folder)
@@ -286,6 +324,10 @@ class Episodes(unittest.TestCase):
         env = self.make(reward=lambda seen: -float(seen.action[0]))
         env.reset(seed=1, options={"set": {"nav.altimeter.rotation_deg": np.zeros(3)}})
         self.assertEqual(env.step(np.float32([20]))[1], -20)
+        env = self.make(reward=lambda seen: None)
+        env.reset(seed=1)
+        with self.assertRaisesRegex(TypeError, "^the reward at t = [0-9.]+ s is None, which is no number$"):
+            env.step(np.float32([20]))
         env = self.make(reward=lambda seen: float("nan"))
         env.reset(seed=1)
         with self.assertRaisesRegex(ValueError, "^the reward at t = [0-9.]+ s is nan$"):
@@ -317,6 +359,15 @@ class Episodes(unittest.TestCase):
         self.assertEqual((seen.shape, seen.dtype), ((64, 64), np.uint8))
         self.assertEqual([(*map(int, at), int(seen[tuple(at)])) for at in np.argwhere(seen)], [(0, 63, 128), (63, 0, 255)])
 
+    def test_a_dive_is_drawn_over_the_seabed_that_was_measured(self):
+        past = {"nav/depth": [ensonify.Depth(depth_m=depth_m) for depth_m in (5.0, 10.0, 20.0)],
+                "nav/altitude": [ensonify.Altitude(valid=valid, range_m=10.0) for valid in (True, False, True)]}
+        drawn = Profile()(mock.Mock(last=past.get))
+        self.assertEqual((drawn.shape, drawn.dtype), ((160, 300, 3), np.uint8))
+        track, seabed = ((drawn == colour).all(axis=2) for colour in (TRACK, SEABED))
+        self.assertEqual([np.flatnonzero(column).mean() / 4 for column in track.T[-3:]], [5 - 0.125, 10 - 0.125, 20 - 0.125])
+        self.assertEqual(seabed.sum(axis=0)[-4:].tolist(), [0, 100, 0, 40])  # 25 m and 10 m of it down to 40 m
+
     def test_a_head_renders(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
             with_head = pathlib.Path(folder) / "with_head.yaml"
@@ -328,8 +379,30 @@ class Episodes(unittest.TestCase):
             env.reset(seed=1)
             image = env.render()
             self.assertEqual((image.shape[1:], image.dtype, image.max()), ((16, 3), np.uint8, 255))
-        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=TOPIC"):
+        with self.assertRaisesRegex(ValueError, "^render_mode='rgb_array' needs image=: the topic of a head's pings, or a function"):
             environment(render_mode="rgb_array")
+        with self.assertRaisesRegex(ValueError, "^render_mode is 'ansi'; allowed: None, 'rgb_array', 'human'$"):
+            environment(render_mode="ansi")
+
+    @unittest.skipUnless(WINDOWS, "there is no pygame")
+    def test_a_window_shows_each_step_by_itself(self):
+        import pygame
+        frames = iter((10, 20, 30, 40))
+
+        def image(seen):
+            return np.full((4, 8, 3), (next(frames), 0, 255), np.uint8)
+
+        with mock.patch.dict(os.environ, NO_DISPLAY):
+            env = self.make(image=image, render_mode="human", fps=1000)
+            shown = lambda: tuple(pygame.display.get_surface().get_at((511, 255)))[:3]
+            env.reset(seed=1)
+            self.assertEqual((pygame.display.get_surface().get_size(), shown()), ((512, 256), (10, 0, 255)))
+            env.step(np.float32([20]))
+            self.assertEqual((env.render(), shown()), (None, (20, 0, 255)))
+            env.close()
+            self.assertIsNone(pygame.display.get_surface())
+            env.reset(seed=1)
+            self.assertEqual(shown(), (30, 0, 255))
 
 
 class Surroundings(unittest.TestCase):
@@ -341,6 +414,17 @@ class Surroundings(unittest.TestCase):
             del os.environ["ENSONIFY_BIN"]
             with self.assertRaisesRegex(ensonify.RunError, "^the program `ensonify` is not on PATH; ENSONIFY_BIN can name the folder"):
                 environment().reset()
+
+    def test_a_window_without_pygame_or_a_display_says_what_it_lacks(self):
+        with mock.patch.dict(sys.modules, {"pygame": None}):
+            with self.assertRaisesRegex(ImportError, "^render_mode='human' needs pygame: pip install 'ensonify\\[human\\]'; without it 'rgb_array'"):
+                environment(image="eye/ping", render_mode="human")
+        if WINDOWS:
+            with mock.patch.dict(os.environ):
+                for name in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"):
+                    os.environ.pop(name, None)
+                with self.assertRaisesRegex(RuntimeError, "^render_mode='human' needs a display; without one 'rgb_array' is allowed, or None$"):
+                    environment(image="eye/ping", render_mode="human")
 
     def test_without_gymnasium_the_rest_of_the_client_works(self):
         program = "import sys; sys.modules['gymnasium'] = None; import ensonify; ensonify.Observer; ensonify.Env"

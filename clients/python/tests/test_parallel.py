@@ -64,6 +64,11 @@ class Agents(unittest.TestCase):
     def test_an_agent_is_named_so_that_its_port_can_be(self):
         with self.assertRaisesRegex(ValueError, "^agent 'red one': a name has letters, digits and _$"):
             self.environment(**{"red one": agent()})
+        for agents, error, text in ((["red"], TypeError, r"^agents is \['red'\]; it must be a dict of names and agents$"),
+                                    ({"red": 7}, TypeError, r"^agents: red is 7; allowed: ensonify.Agent\(...\)$"),
+                                    ({}, ValueError, "^agents is empty; there must be one$")):
+            with self.assertRaisesRegex(error, text):
+                ensonify.ParallelEnv("keep_formation.yaml", agents=agents)
 
 
 class Episodes(unittest.TestCase):

@@ -220,6 +220,17 @@ class InARun(unittest.TestCase):
                     out.send(ensonify.Ping(amplitude_upa=np.zeros(1000, "f4")))
         self.finish(clock)
 
+    def test_a_flood_is_refused_where_it_is_sent(self):
+        clock = self.start(["agent"], {}, 3 * SECOND)
+        with ensonify.Participant("agent", clock=clock.endpoint, config={}) as me:
+            out = me.publish("command", ensonify.Guidance, rate=4)
+            for n, step in enumerate(me.steps(rate=2)):
+                for _ in range(6 if n == 0 else 2):  # 4 of a second and 2 more, then as many as come
+                    out.send(ensonify.Guidance())
+                with self.assertRaisesRegex(ValueError, r"^command: more than 4 Hz with 6 at once: publish\(rate=...\) declares"):
+                    out.send(ensonify.Guidance())
+        self.finish(clock)
+
     def test_an_observer_sees_typed_messages_and_the_registry(self):
         clock = self.start(["head", "agent"], {"agent.ping": "head/ping"}, 10**6 * SECOND)
         head = Head(clock.endpoint)

@@ -2,7 +2,7 @@
 register of: `ensonify.tasks.keep_formation.KeepFormation()`. Each has a file of its own and a launch file."""
 import gymnasium
 
-TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow", "WallFollow": "wall_follow"}
+TASKS = {"AltitudeHold": "altitude_hold", "BottomFollow": "bottom_follow", "WallFollow": "wall_follow", "TargetSearch": "target_search"}
 TEAM_TASKS = {"KeepFormation": "keep_formation"}
 
 

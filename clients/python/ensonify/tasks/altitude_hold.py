@@ -11,6 +11,7 @@ from ensonify.episode import Seen
 from ensonify.messages import Altitude, Depth, Estimate, Guidance
 from ensonify.acts import Act
 from ensonify.spaces import Array, Box, Fields
+from ensonify.tasks.profile import Profile
 
 ALTITUDE_M = 6.0  # to keep
 TOLERATED_M = 3.0  # error of the altitude that still earns something
@@ -45,8 +46,6 @@ def climb(estimate: Estimate) -> list:
 class AltitudeHold(Env):
     """Ensonify/AltitudeHold-v0. Keywords are Env's, to change it."""
 
-    metadata = {"render_modes": []}
-
     def __init__(self, **changes: Any):
         super().__init__(**{
             "launch": pathlib.Path(__file__).with_name("altitude_hold.yaml"),
@@ -57,6 +56,7 @@ class AltitudeHold(Env):
             "reward": reward,
             "done": done,
             "seconds": 60,
+            "image": Profile(),
             **changes})
 
 

@@ -12,6 +12,7 @@ from ensonify.episode import Seen
 from ensonify.messages import Altitude, Depth, Estimate, Guidance, Pose
 from ensonify.acts import Act
 from ensonify.spaces import Array, Box, Fields
+from ensonify.tasks.profile import Profile
 
 ALTITUDE_M = 4.0  # to keep
 TOLERATED_M = 3.0  # error of the altitude that still earns something
@@ -50,8 +51,6 @@ def way(estimate: Estimate) -> tuple:
 class BottomFollow(Env):
     """Ensonify/BottomFollow-v0. Keywords are Env's, to change it."""
 
-    metadata = {"render_modes": []}
-
     def __init__(self, **changes: Any):
         super().__init__(**{
             "launch": pathlib.Path(__file__).with_name("bottom_follow.yaml"),
@@ -63,6 +62,7 @@ class BottomFollow(Env):
             "reward": reward,
             "done": done,
             "seconds": 60,
+            "image": Profile(),
             **changes})
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ensonify.environment import Env
 from ensonify.episode import Seen
 from ensonify.episodes import drawn_seed
+from ensonify.images import grey
 from ensonify.messages import Estimate, Guidance, Ping, Pose
 from ensonify.acts import Act
 from ensonify.spaces import Array, Box
@@ -72,8 +73,6 @@ def done(seen: Seen) -> bool:
 class WallFollow(Env):
     """Ensonify/WallFollow-v0. Keywords are Env's, to change it."""
 
-    metadata = {"render_modes": []}
-
     def __init__(self, **changes: Any):
         super().__init__(**{
             "launch": pathlib.Path(__file__).with_name("wall_follow.yaml"),
@@ -85,6 +84,7 @@ class WallFollow(Env):
             "done": done,
             "rate": 2,
             "seconds": 60,
+            "image": lambda seen: grey(image(seen["bow/ping"])[::-1]),
             **changes})
 
     def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple:
