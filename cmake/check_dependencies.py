@@ -41,7 +41,7 @@ KERNELS = ["kernels"]
 TALK = ["messages", "components/errors", "components/runtime"]
 FILES = ["components/errors", "components/config"]
 WORLD = FILES + ["scenarios", "messages"] + KERNELS
-SHARED = TALK + WORLD + ["components/record", "components/formats", "components/transport", "components/terrain",
+SHARED = TALK + WORLD + ["components/record", "components/formats", "components/transport", "components/feeds", "components/terrain",
                                             "components/sonar", "components/survey_files", "components/tracks", "components/truth", "components/view"]
 SEES = {
     "kernels/base": [],
@@ -59,6 +59,7 @@ SEES = {
     "components/survey_files": ["components/errors", "components/formats", "components/runtime/tool.h"] + KERNELS,
     "components/tracks": TALK + WORLD + ["components/formats", "components/record", "components/survey_files"],
     "components/transport": ["components/errors"],
+    "components/feeds": TALK + FILES + ["components/formats", "components/transport"],
     "components/config": ["components/errors"],
     "components/runtime": ["messages", "components/errors"],
     "components/record": TALK,
@@ -82,7 +83,7 @@ FAR = {"examples/gyro": re.compile(r"^(scenarios/world|components/sonar|kernels/
 # Rooms of the picture: the first prefix that fits.
 DRAWN = (
     ("tools/", "tools/<verb>"), ("launch/", "launch"), ("scenarios/", "scenarios"), ("messages/", "messages"), ("kernels/", "kernels"),
-    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "survey_files", "tracks", "transport", "truth", "view", "config", "runtime", "errors")),
+    *((f"components/{room}/", f"components/{room}") for room in ("sonar", "terrain", "record", "formats", "survey_files", "tracks", "feeds", "transport", "truth", "view", "config", "runtime", "errors")),
     ("components/", "components/<process>"),
 )
 # Every process has its main() from there; drawn, it would be an arrow both ways.

@@ -47,6 +47,16 @@ std::vector<Expectation> read_expectations(const std::string& file) {
   }
 }
 
+std::vector<Loss> losses_in(const nlohmann::json& report) {
+  std::vector<Loss> losses;
+  for (const auto& participant : report.value("participants", nlohmann::json::array())) {
+    if (!participant.contains("lost")) continue;
+    const auto& lost = participant["lost"];
+    losses.push_back({participant["name"], 1e-9 * lost["at_ns"].get<double>(), lost["why"]});
+  }
+  return losses;
+}
+
 std::optional<ClockReport> read_clock_report(const std::string& out) {
   std::ifstream stream(out + "/clock.json");
   const auto reported = nlohmann::json::parse(stream, nullptr, false);
@@ -54,7 +64,7 @@ std::optional<ClockReport> read_clock_report(const std::string& out) {
     return std::nullopt;
   }
   return ClockReport{reported.value("sim_s", 0.0), reported.value("exit_code", 0), reported.value("culprit", ""),
-                     reported.value("message", "")};
+                     reported.value("message", ""), losses_in(reported)};
 }
 
 void remove_reports(const std::string& out) {
@@ -99,6 +109,7 @@ std::string json_text(const RunReport& report) {
       item["max_rss_kib"] = process.max_rss_kib;
       item["cpu_s"] = process.cpu_s;
     }
+    if (process.loss) item["lost"] = {{"at_s", process.loss->at_s}, {"message", process.loss->why}};
     processes.push_back(std::move(item));
   }
   json expectations = json::array();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,15 +13,23 @@
 
 namespace ensonify::launcher {
 
+/// When, in sim time, and why the run had to go on without a process that it may lose.
+struct Loss {
+  std::string process;
+  double at_s = 0.0;
+  std::string why;
+};
+
 /// Outcome of one process.
 struct ProcessReport {
   std::string name;
-  std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED, STOPPED (by the launcher)
+  std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED, LOST, STOPPED (by the launcher)
   std::optional<Ending> ending;
   bool external = false;
   long max_rss_kib = 0;
   double cpu_s = 0.0;
   std::optional<Fault> fault;
+  std::optional<Loss> loss;
 };
 
 /// One line of `<out>/expect.json`, which the expect process writes.
@@ -46,7 +55,11 @@ struct ClockReport {
   double sim_s = 0.0;  // reached
   int exit_code = 0;
   std::string culprit, message;
+  std::vector<Loss> losses;
 };
+
+/// Whom the clock has done without, of its report or of its answer to `status`.
+std::vector<Loss> losses_in(const nlohmann::json& report);
 
 /// Nothing when the file is not there or is not whole.
 std::optional<ClockReport> read_clock_report(const std::string& out);

@@ -187,9 +187,10 @@ void Supervisor::on_ended(const Reaped& reaped) {
   const bool native = member.spec->argv.empty();
   auto fault = fault_of(member.name, native, *member.child->ending());
   const bool had_joined = member.state != "STARTING";
-  member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
+  member.state = member.loss ? "LOST" : !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (!fault) {
     member.left_at = now;
+    if (ending_ == Ending::kNo && member.spec->may_be_lost) lose(member, "left before the end of the run");
   } else if (fault->code == kExitAssertionFailed) {
     if (!ended_as_expected(member.name)) {
       member.fault = fault;
@@ -208,6 +209,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
       const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
       fault->message += last_words.empty() ? "" : ": " + last_words;
     }
+    if (member.spec->may_be_lost && lose(member, fault->message)) return;
     member.fault = fault;
     noticed_.push_back(*fault);
     const bool clock_knows =
@@ -223,6 +225,7 @@ void Supervisor::on_clock_ended(Member& member) {
   member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (const auto reported = read_clock_report(places_.out)) {
     sim_s_ = reported->sim_s;
+    note_losses(reported->losses, now);
     if (fault && reported->exit_code == fault->code) {
       fault->culprit = reported->culprit.empty() ? fault->culprit : reported->culprit;
       fault->message = reported->message.empty() ? fault->message : reported->message;
@@ -338,7 +341,8 @@ void Supervisor::on_time(WallTime now) {
   if (ending_ != Ending::kNo && now >= ending_until_ && anything_runs()) {
     if (ending_ == Ending::kAsked) {
       for (const auto& member : members_) {
-        if (!clock().child->running() && member.child && member.child->running() && !member.spec->observer) {
+        const bool stays = !clock().child->running() && member.child && member.child->running();
+        if (stays && !member.spec->observer && !member.spec->may_be_lost) {
           noticed_.push_back({kExitStall, member.name, "did not leave after the end of the run"});
         }
       }
@@ -358,6 +362,7 @@ void Supervisor::on_time(WallTime now) {
     respawn(now);
     watch_memory(now);
   }
+  kill_lost(now);
   progress_.show(sim_s_, elapsed_s(began_, now), clock_state_);
 }
 
@@ -385,6 +390,7 @@ RunReport Supervisor::report() const {
     process.state = member.state;
     process.external = member.spec != nullptr && member.spec->external;
     process.fault = member.fault;
+    process.loss = member.loss;
     if (member.child) {
       process.ending = member.child->ending();
       process.max_rss_kib = member.child->max_rss_kib();

@@ -38,6 +38,8 @@ class Supervisor {
     std::optional<Fault> fault;
     std::optional<WallTime> left_at;  // ended without a fault
     std::optional<WallTime> respawn_at;
+    std::optional<Loss> loss;         // the run goes on without it
+    std::optional<WallTime> kill_at;  // one that is lost and still there
   };
 
   /// Ending of the run; each step has a deadline after which the next begins.
@@ -66,6 +68,10 @@ class Supervisor {
   void read_status(const std::string& text);
   void check_leavers(WallTime now);
   void respawn(WallTime now);
+  bool lose(Member& member, const std::string& why);
+  void note_loss(Member& member, const Loss& loss);
+  void note_losses(const std::vector<Loss>& losses, WallTime now);
+  void kill_lost(WallTime now);
   void watch_memory(WallTime now);
   void begin(Ending ending, WallTime now, std::chrono::milliseconds grace);
   void send_all(int signal);

@@ -17,6 +17,9 @@ using std::chrono::milliseconds;
 constexpr milliseconds kAskEvery{200};
 constexpr milliseconds kWatchMemoryEvery{500};
 constexpr milliseconds kLeftTooEarly{2000};
+constexpr milliseconds kClocksAnswer{500};
+constexpr int kAsks = 4;
+constexpr milliseconds kGraceOfLost{2000};  // it may be about to end in its own words
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::toupper(c); });
@@ -53,6 +56,7 @@ void Supervisor::read_status(const std::string& text) {
     sim_s_ = 1e-9 * status["sim_ns"].get<double>();
   }
   const bool runs = clock_state_ == "RUNNING" || clock_state_ == "PAUSED";
+  note_losses(losses_in(status), last_answer_);
   const auto missing = status.value("missing", std::vector<std::string>{});
   for (auto& member : members_) {
     const bool joined = std::find(missing.begin(), missing.end(), member.name) == missing.end();
@@ -65,7 +69,8 @@ void Supervisor::read_status(const std::string& text) {
 void Supervisor::check_leavers(WallTime now) {
   for (auto& member : members_) {
     // By what the clock said after that: one that is itself on its way out, on a machine that swaps, says nothing.
-    const bool early = member.left_at && last_answer_ > *member.left_at + kLeftTooEarly && !member.spec->observer;
+    const bool early =
+        member.left_at && !member.loss && last_answer_ > *member.left_at + kLeftTooEarly && !member.spec->observer;
     if (early && !member.fault && clock_state_ != "DONE" && clock_state_ != "FAILED") {
       member.state = "FAILED";
       member.fault = Fault{kExitDied, member.name, "left before the end of the run"};
@@ -81,6 +86,55 @@ void Supervisor::respawn(WallTime now) {
       member.respawn_at.reset();
       start(member, process_command(launch_, *member.spec, places_, clock_endpoint_));
     }
+  }
+}
+
+/// Whether the run goes on without this process, which has died.
+bool Supervisor::lose(Member& member, const std::string& why) {
+  if (!query_) return false;
+  if (!clock().child->running() && noticed_.empty()) {  // the run has ended well
+    note_loss(member, {member.name, sim_s_, why});
+    return true;
+  }
+  const std::string request = nlohmann::json{{"kind", "lose"}, {"process", member.name}, {"why", why}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+  for (int i = 0; i < kAsks; ++i) {
+    const auto text = query_->ask(request, kClocksAnswer);
+    const auto answer = nlohmann::json::parse(text.value_or(""), nullptr, false);
+    if (!answer.is_object() || answer.value("kind", "") != "lose")
+      continue;  // it is busy, or answers what was asked before
+    if (!answer.value("ok", false)) return false;
+    note_loss(member, {member.name, 1e-9 * answer.value("at_ns", 0.0), why});
+    return true;
+  }
+  return false;
+}
+
+void Supervisor::note_loss(Member& member, const Loss& loss) {
+  member.state = "LOST";
+  if (member.loss) return;
+  member.loss = loss;
+  progress_.finish();
+  fmt::print(stderr, "ensonify run: {} is lost at t={:.3f} s: {}; the run goes on without it\n", member.name, loss.at_s,
+             loss.why);
+}
+
+void Supervisor::note_losses(const std::vector<Loss>& losses, WallTime now) {
+  for (const Loss& loss : losses) {
+    const auto member =
+        std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.name == loss.process; });
+    if (member == members_.end() || member->loss) continue;
+    note_loss(*member, loss);
+    member->kill_at = now + kGraceOfLost;
+  }
+}
+
+/// A process that stood still or broke the protocol is still there when the clock has done with it.
+void Supervisor::kill_lost(WallTime now) {
+  for (auto& member : members_) {
+    if (!member.kill_at || now < *member.kill_at) continue;
+    member.kill_at.reset();
+    if (member.child) member.child->send(SIGKILL);
   }
 }
 
@@ -110,7 +164,8 @@ void Supervisor::watch_memory(WallTime now) {
   }
   auto& culprit =
       *std::find_if(members_.begin(), members_.end(), [&](const Member& m) { return m.name == fault->culprit; });
-  if (culprit.spec != nullptr && culprit.spec->observer) {
+  if (culprit.spec != nullptr &&
+      (culprit.spec->observer || (culprit.spec->may_be_lost && lose(culprit, fault->message)))) {
     culprit.child->send(SIGKILL);
     return;
   }

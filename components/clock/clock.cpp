@@ -74,10 +74,11 @@ void Clock::on_message(const bus::Router::Message& message) {
     return on_request(message, kind);
   const auto rank = registry_.participant(message.from);
   if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
+  if (is_lost(*rank)) return;
   try {
     on_word(*rank, kind, message.text);
   } catch (const std::exception& e) {
-    fail(kExitDied, message.from, fmt::format("{} broke the protocol: {}: {}", message.from, kind, e.what()));
+    fault(*rank, kExitDied, fmt::format("{} broke the protocol: {}: {}", message.from, kind, e.what()));
   }
 }
 
@@ -97,7 +98,7 @@ void Clock::on_word(std::size_t rank, const std::string& kind, const std::string
   } else if (phase_ == Phase::kEnding) {
     left_[rank] = true;
   } else {
-    fail(kExitDied, name, name + " left before the end of the run");
+    fault(rank, kExitDied, name + " left before the end of the run");
   }
 }
 
@@ -187,7 +188,7 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
   const std::string& name = epoch_.accounts[rank].name;
   if (const auto breach =
           epoch_.referee->judge(rank, done, epoch_.conductor->next(rank), epoch_.conductor->granted(rank)))
-    return fail(breach->code, name, name + " " + breach->text);
+    return fault(rank, breach->code, name + " " + breach->text);
   const WallTime now = steady_clock::now();
   epoch_.last_progress = now;
   epoch_.stall_stage = 0;
@@ -227,8 +228,9 @@ void Clock::note_late(std::size_t rank, bool late) {
 void Clock::on_failed(std::size_t rank, const protocol::Failed& failed) {
   const auto culprit = registry_.participant(failed.culprit);
   const bool of_another = culprit && registry_.feeds(*culprit, rank);
+  if (!of_another) return fault(rank, failed.code, failed.message);
   if (phase_ == Phase::kEnding) left_[rank] = true;
-  fail(failed.code, registry_.hellos()[of_another ? *culprit : rank].declaration.process, failed.message);
+  fail(failed.code, failed.culprit, failed.message);
 }
 
 void Clock::on_time(WallTime now) {
@@ -273,16 +275,20 @@ void Clock::watch_progress(WallTime now) {
   if (epoch_.stall_stage == 0 && silent_s >= deadline_s) {
     epoch_.stall_stage = 1;
     log::line("clock", epoch_.conductor->now(), "no_progress",
-              fmt::format("for_s={:.2f} waiting_for={}", silent_s, name_stalled()));
+              fmt::format("for_s={:.2f} waiting_for={}", silent_s, names(stalled())));
   } else if (epoch_.stall_stage == 1 && silent_s >= 3 * deadline_s) {
     epoch_.stall_stage = 2;
     dump_stall();
   } else if (epoch_.stall_stage == 2 && silent_s >= 10 * deadline_s) {
-    const std::string culprit = name_stalled();
+    const std::vector<std::size_t> culprits = stalled();
     dump_stall();
-    fail(kExitStall, culprit,
-         fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s, seconds(epoch_.conductor->now()),
-                     culprit));
+    const std::string message = fmt::format("no progress for {:.1f} s at t={:.3f}: waiting for {}", silent_s,
+                                            seconds(epoch_.conductor->now()), names(culprits));
+    epoch_.last_progress = now;  // of a run that goes on without them
+    epoch_.stall_stage = 0;
+    bool goes_on = false;
+    for (const std::size_t rank : culprits) goes_on |= lose(rank, message);
+    if (!goes_on) fail(kExitStall, names(culprits), message);
   }
 }
 

@@ -26,7 +26,9 @@ struct Account {
   std::int64_t cost_ns = 0;       // wall time inside its events
   std::uint64_t late_events = 0;  // grants it finished last, more than kLateAfter behind the paced time
   SimTime worst_lateness{0};
-  bool late = false;  // by its last grant, of which it hears if it has ports for viewers
+  bool late = false;   // by its last grant, of which it hears if it has ports for viewers
+  std::string lost;    // why the run goes on without it; "": it takes part
+  SimTime lost_at{0};  // before which its last event is
 };
 
 /// A run is late when sim time stands this far behind paced time.
@@ -100,6 +102,7 @@ class Clock {
   std::string ask_reset(const nlohmann::json& request, nlohmann::json& answer);
   std::string look_up(const nlohmann::json& request, nlohmann::json& answer) const;
   std::string steer(const std::string& kind, const nlohmann::json& request, nlohmann::json& answer);
+  std::string ask_to_lose(const nlohmann::json& request, nlohmann::json& answer);
   void on_time(WallTime now);
 
   void end_epoch();
@@ -112,11 +115,15 @@ class Clock {
   void report_health(WallTime now);
   void refuse(const std::string& to, const std::string& kind, const std::string& why);
   void fail(int code, const std::string& culprit, const std::string& message);
+  void fault(std::size_t rank, int code, const std::string& message);
+  bool lose(std::size_t rank, const std::string& why);
+  bool is_lost(std::size_t rank) const { return rank < epoch_.accounts.size() && !epoch_.accounts[rank].lost.empty(); }
   void end(int code);
   void send_to_all(const std::string& text);
 
   char state_of(std::size_t p) const;
-  std::string name_stalled() const;
+  std::vector<std::size_t> stalled() const;
+  std::string names(const std::vector<std::size_t>& ranks) const;
   void dump_stall() const;
   Summary summary() const;
   std::string status_json() const;

@@ -52,6 +52,11 @@ std::string Clock::ask_reset(const json& request, json& answer) {
   if (next_) return fmt::format("epoch {} is about to begin already", next_->begin.epoch);
   if (const auto fixed = registry_.fixed(); !fixed.empty())
     return joined(fixed) + ": cannot begin another epoch; only a new launch resets it";
+  for (const Account& account : epoch_.accounts) {
+    if (!account.lost.empty())
+      return fmt::format("{}: was lost at t={:.3f} s; only a new launch resets it", account.name,
+                         seconds(account.lost_at));
+  }
   NextEpoch next;
   next.begin.epoch = epoch_.number + 1;
   try {

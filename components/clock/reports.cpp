@@ -46,12 +46,14 @@ json to_json(const Summary& s) {
 }
 
 json to_json(const Account& a) {
-  return {{"name", a.name},
-          {"pid", a.pid},
-          {"grants", a.grants},
-          {"cost_s", static_cast<double>(a.cost_ns) * 1e-9},
-          {"late_events", a.late_events},
-          {"worst_lateness_s", seconds(a.worst_lateness)}};
+  json j = {{"name", a.name},
+            {"pid", a.pid},
+            {"grants", a.grants},
+            {"cost_s", static_cast<double>(a.cost_ns) * 1e-9},
+            {"late_events", a.late_events},
+            {"worst_lateness_s", seconds(a.worst_lateness)}};
+  if (!a.lost.empty()) j["lost"] = {{"why", a.lost}, {"at_ns", a.lost_at.count()}};
+  return j;
 }
 
 /// Registry entry of a port for viewers. How much it has published is known to none but its process.
@@ -81,17 +83,23 @@ char Clock::state_of(std::size_t p) const {
 
 /// A stopped process first, then a busy one, then whoever has a grant: a participant that blocks on a full queue of a
 /// stopped one has a grant too, but is not to blame.
-std::string Clock::name_stalled() const {
+std::vector<std::size_t> Clock::stalled() const {
   for (const char state : {'T', 't', 'R'}) {
     for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
-      const bool suspect = state != 'R' || epoch_.conductor->running(p);
-      if (suspect && state_of(p) == state) return epoch_.accounts[p].name;
+      const bool suspect = !is_lost(p) && (state != 'R' || epoch_.conductor->running(p));
+      if (suspect && state_of(p) == state) return {p};
     }
   }
-  std::string names;
+  std::vector<std::size_t> ranks;
   for (std::size_t p = 0; p < epoch_.accounts.size(); ++p) {
-    if (epoch_.conductor->running(p)) names += (names.empty() ? "" : ", ") + epoch_.accounts[p].name;
+    if (epoch_.conductor->running(p)) ranks.push_back(p);
   }
+  return ranks;
+}
+
+std::string Clock::names(const std::vector<std::size_t>& ranks) const {
+  std::string names;
+  for (const std::size_t p : ranks) names += (names.empty() ? "" : ", ") + epoch_.accounts[p].name;
   return names;
 }
 

@@ -83,11 +83,13 @@ std::string Clock::steer(const std::string& kind, const json& request, json& ans
     pacer_.set_rate(paced ? std::optional(rate.get<double>()) : std::nullopt, reached, now);
   } else if (kind == "reset") {
     return ask_reset(request, answer);
+  } else if (kind == "lose") {
+    return ask_to_lose(request, answer);
   } else if (kind == "stop") {
     request_stop();
   } else {
     return "unknown request; known: status, registry, get, pause, resume, step (ns), rate (0: free), reset (set, out), "
-           "stop";
+           "lose (process, why), stop";
   }
   return "";
 }

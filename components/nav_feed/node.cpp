@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "components/nav_feed/feed_message.h"
 #include "components/runtime/log.h"
 #include "components/truth/pose_message.h"
 
@@ -15,16 +14,10 @@ NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
       poses_due_(Rate{config.pose_rate_hz, 1}),
       poses_(ports.out<msg::Pose>("pose", {.rate = Rate{config.pose_rate_hz, 1}})),
       fixes_(ports.out<msg::Position>("fix", {.rate = Rate{config.pose_rate_hz, 1}})),
+      input_(ports, {config.sources.begin(), config.sources.end()}, config.recorded, Rate{config.pose_rate_hz, 1}),
       fixes_allowed_(Rate{config.pose_rate_hz, 1}) {
   const auto count = [this](const std::string& what) { ports_.count(what); };
   for (const FeedSource& source : config_.sources) decoders_.emplace_back(source, count);
-  if (config_.recorded) {
-    ports.in<msg::FeedData>("data",
-                            [this](const msg::FeedData& data) { append_pieces(data, config_.sources, recorded_); });
-  } else {
-    data_.emplace(ports.out<msg::FeedData>(
-        "data", {.max_bytes = most_feed_bytes(config.sources), .rate = Rate{config.pose_rate_hz, 1}}));
-  }
   const auto start = [this](const frames::Geodetic& origin) {
     track_.emplace(config_, frames::LocalProjection(origin), [this](const std::string& what) { ports_.count(what); });
   };
@@ -39,12 +32,12 @@ NavFeedNode::NavFeedNode(const Config& config, Ports& ports)
 
 SimTime NavFeedNode::step(SimTime now) {
   if (!poses_due_.due(now)) return poses_due_.next();
-  if (!sources_ && !config_.recorded) sources_.emplace(config_.sources);
+  input_.open();
   if (!track_) return poses_due_.next();
   receive(now);
   if (const auto moving = track_->at(now)) poses_.send(pose_message(now, at_its_height(*moving, now)));
   if (track_->lacks_data(now)) ports_.count("poses_guessed");
-  std::string trouble = sources_ ? sources_->trouble() : "";
+  std::string trouble = input_.trouble();
   const std::string of_track = track_->trouble(now);
   if (!trouble.empty() && !of_track.empty()) trouble += "; ";
   trouble += of_track;
@@ -53,17 +46,8 @@ SimTime NavFeedNode::step(SimTime now) {
   return poses_due_.next();
 }
 
-/// What came since the event before, from outside or by a record.
-std::vector<FedPiece> NavFeedNode::arrived(SimTime now) {
-  if (config_.recorded) return std::exchange(recorded_, {});
-  std::vector<FedPiece> pieces = sources_->take(now);
-  sources_->count([this](const std::string& what, std::int64_t by) { ports_.count(what, by); });
-  if (!pieces.empty()) data_->send(feed_data(now, config_.sources, pieces));
-  return pieces;
-}
-
 void NavFeedNode::receive(SimTime now) {
-  for (const FedPiece& piece : arrived(now)) take(piece, now);
+  for (const FedPiece& piece : input_.take(now)) take(piece, now);
   const auto fix = track_->take_fix();
   if (!fix) return;
   if (!fixes_allowed_.take(1, now)) return ports_.count("fixes_too_many");

@@ -3,14 +3,13 @@
 #include <optional>
 #include <vector>
 
+#include "components/feeds/feed_input.h"
 #include "components/nav_feed/config.h"
 #include "components/nav_feed/fed_track.h"
 #include "components/nav_feed/source_decoder.h"
-#include "components/nav_feed/sources.h"
 #include "components/runtime/ports.h"
 #include "components/runtime/rate_limit.h"
 #include "kernels/vehicle/vertical/floating.h"
-#include "messages/feed.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -28,21 +27,18 @@ class NavFeedNode {
 
  private:
   void receive(SimTime now);
-  std::vector<FedPiece> arrived(SimTime now);
   void take(const FedPiece& piece, SimTime now);
   frames::MovingPose at_its_height(frames::MovingPose moving, SimTime now);
 
   Config config_;
   Ports& ports_;
   Periodic poses_due_;
-  std::optional<Sources> sources_;              // from the first event on: a check of the launch file takes no port
   std::vector<SourceDecoder> decoders_;         // one of each source
   std::optional<FedTrack> track_;               // from when the world's origin is known on
   std::optional<vertical::Floating> floating_;  // from its first pose on
-  std::vector<FedPiece> recorded_;              // with config_.recorded: for this event
-  std::optional<Ports::Out<msg::FeedData>> data_;
   Ports::Out<msg::Pose> poses_;
   Ports::Out<msg::Position> fixes_;
+  FeedInput input_;
   RateLimit fixes_allowed_;
 };
 

@@ -7,7 +7,6 @@ namespace ensonify {
 namespace {
 
 constexpr double kDay_s = 86400.0;
-constexpr std::size_t kLongestLine = 1024;  // sentences have 82 characters, proprietary ones more
 
 }  // namespace
 
@@ -15,7 +14,6 @@ SourceDecoder::SourceDecoder(const FeedSource& source, Count count) : source_(so
 
 void SourceDecoder::take(std::string_view bytes, bool begins, bool whole, const Each& each) {
   if (begins) {
-    line_.clear();
     tss1_ = {};
     em_attitude_ = {};
     km_binary_ = {};
@@ -24,7 +22,10 @@ void SourceDecoder::take(std::string_view bytes, bool begins, bool whole, const 
   using Format = FeedSource::Format;
   using namespace formats;
   switch (source_.format) {
-    case Format::kNmea: return take_lines(bytes, whole, each);
+    case Format::kNmea:
+      return lines_.take(
+          bytes, begins, whole, [&](std::string_view line) { give(nmea::read_navigation(line), each); },
+          [this] { count_("lines_too_long"); });
     case Format::kTss1:
       return tss1_.take(raw, [&](ByteView frame) {
         const auto sample = tss1::read(frame);
@@ -48,26 +49,6 @@ void SourceDecoder::take(std::string_view bytes, bool begins, bool whole, const 
         give(sample ? std::optional(km_binary::motion_of(*sample)) : std::nullopt, each);
       });
   }
-}
-
-void SourceDecoder::take_lines(std::string_view bytes, bool whole, const Each& each) {
-  const auto finish = [&] {
-    if (line_too_long_) count_("lines_too_long");
-    if (!line_too_long_ && line_.find_first_not_of("\r ") != std::string::npos)
-      give(nmea::read_navigation(line_), each);
-    line_.clear();
-    line_too_long_ = false;
-  };
-  for (const char c : bytes) {
-    if (c == '\n') {
-      finish();
-    } else if (line_.size() < kLongestLine) {
-      line_ += c;
-    } else {
-      line_too_long_ = true;
-    }
-  }
-  if (whole) finish();
 }
 
 bool SourceDecoder::is_of_the_day_before(double time_s) const {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "components/feeds/lines.h"
 #include "components/formats/em_attitude/em_attitude.h"
 #include "components/formats/km_binary/km_binary.h"
 #include "components/formats/nmea/navigation.h"
@@ -26,7 +27,6 @@ class SourceDecoder {
   static constexpr double kGpsAhead_s = 18.0;  // of UTC, since 2017
 
  private:
-  void take_lines(std::string_view bytes, bool whole, const Each& each);
   void give(nmea::Navigation found, const Each& each);
   void give(const std::optional<formats::Motion>& motion, const Each& each);
   void correct(formats::Motion& motion);
@@ -36,8 +36,7 @@ class SourceDecoder {
 
   FeedSource source_;
   Count count_;
-  std::string line_;  // of NMEA: what has come of it
-  bool line_too_long_ = false;
+  Lines lines_;  // of NMEA
   formats::tss1::Stream tss1_;
   formats::em_attitude::Stream em_attitude_;
   formats::km_binary::Stream km_binary_;

@@ -150,7 +150,7 @@ void Injector::begin_event(SimTime now, const Publish& publish) {
     if (now < one.from || said_[i]) continue;
     if (one.kind == Injection::Kind::kKill) {
       say_once(i, fmt::format("kill signal={}", one.signal));
-      ::kill(::getpid(), one.signal);
+      throw InjectedKill{one.signal};
     } else {
       say_once(i, fmt::format("pause wall_s={:g}", one.wall_s));
       pause_for(one.wall_s);

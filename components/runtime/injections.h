@@ -34,6 +34,12 @@ struct Injection {
   bool hits(const std::string& process, const std::string& port) const;
 };
 
+/// Thrown at the event before which the launch kills this process (kKill). What it has published before is still to
+/// leave; then it ends itself by the signal, so that the others see the same messages in every run.
+struct InjectedKill {
+  int signal = 0;
+};
+
 /// As the fact has them. Throws std::invalid_argument for a text that is not.
 std::vector<Injection> injections_of(const std::string& fact);
 std::string fact_of(const std::vector<Injection>& injections);
@@ -53,7 +59,7 @@ class Injector {
   /// Publishes one of the process's messages, now.
   using Publish = std::function<void(std::size_t port, msg::Body, msg::Buffer wall_facts)>;
 
-  /// Ends or stops the process if it is time; then publishes what has been delayed until now.
+  /// Throws InjectedKill, or stops the process, if it is time; then publishes what has been delayed until now.
   void begin_event(SimTime now, const Publish& publish);
   /// A message of the process's: published, changed, kept for later or lost.
   void pass(SimTime now, std::size_t port, msg::Body body, msg::Buffer wall_facts, const Publish& publish);

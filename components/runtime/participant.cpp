@@ -2,11 +2,17 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <csignal>
+#include <deque>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/injections.h"
 #include "components/runtime/log.h"
 #include "components/runtime/peer.h"
 #include "components/runtime/protocol.h"
@@ -37,6 +43,7 @@ class Participant {
       } else {
         const std::string kind = protocol::kind_of(event.control);
         if (kind == "late") late_ = protocol::read_late(event.control);
+        if (kind == "lost") link_.lost(protocol::read_lost(event.control));
         if (kind == "welcome") welcome(event.control);
         if (kind == "epoch") begin(protocol::read_epoch(event.control));
         if (kind == "refused") return refused(event.control);
@@ -49,6 +56,9 @@ class Participant {
 
   /// From another thread: run() throws.
   void interrupt() { link_.interrupt(); }
+
+  /// The launch kills this process. The others know of all that it has published.
+  void leave() { link_.leave(); }
 
   void report_failed(const protocol::Failed& failed) { link_.send_control(protocol::encode_failed(failed)); }
 
@@ -66,6 +76,11 @@ class Participant {
 
   /// Once time has started the clock alone has something to say, unless it is gone.
   bus::Link::Event next_event() {
+    if (!heard_.empty()) {
+      bus::Link::Event first{bus::Link::Event::kControl, std::move(heard_.front()), {}};
+      heard_.pop_front();
+      return first;
+    }
     if (granted_) {
       if (auto control = link_.wait_control()) return {bus::Link::Event::kControl, std::move(*control), {}};
     }
@@ -89,6 +104,7 @@ class Participant {
                              {.watched = [this](const std::string& topic) { return link_.is_watched(topic); },
                               .send = [this](msg::Packet&& packet) { link_.publish_live(packet); },
                               .late = [this] { return late_; }});
+    early_.clear();
     link_.subscribe(subscriptions, w.epoch);
     if (wired_) link_.send_control(R"({"kind":"ready"})");
     wired_ = true;
@@ -110,14 +126,19 @@ class Participant {
     if (grant.epoch != epoch_) return;
     granted_ = true;
     Stepper& stepper = session_->stepper();
-    link_.wait_arrived(grant.inputs, patience_);
-    for (const msg::Packet& packet : link_.take()) {
+    link_.wait_arrived(grant.inputs, patience_, [this] { hear(); });
+    for (const msg::Packet& packet : counted_in(grant)) {
       if (stepper.too_late(packet)) throw broken_promise(packet);
       stepper.insert(packet);
     }
     const auto begin = std::chrono::steady_clock::now();
     protocol::Done done;
-    done.finish = stepper.run_to(grant.horizon);
+    std::optional<InjectedKill> killed;
+    try {
+      done.finish = stepper.run_to(grant.horizon);
+    } catch (const InjectedKill& kill) {
+      killed = kill;  // the events before that one have been run
+    }
     link_.flush();
     done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
     link_.expect_until(saturating_add(stepper.next(), kLongestWindow));
@@ -127,6 +148,32 @@ class Participant {
       done.outputs.emplace_back(stepper.outs()[i].topic_id, stepper.published()[i]);
     }
     link_.send_control(protocol::encode(done));
+    if (killed) throw InjectedKill(*killed);
+  }
+
+  /// What comes of the clock while this process waits for data is for later, but that a publisher is lost.
+  void hear() {
+    while (auto control = link_.take_control()) {
+      if (protocol::kind_of(*control) == "lost") link_.lost(protocol::read_lost(*control));
+      else heard_.push_back(std::move(*control));
+    }
+  }
+
+  /// What has come and the grant counts, in order per topic. What it does not count waits: should its publisher be lost
+  /// before it has counted it, nobody reads it.
+  std::vector<msg::Packet> counted_in(const protocol::Grant& grant) {
+    std::vector<msg::Packet> packets = std::exchange(early_, {});
+    std::vector<msg::Packet> fresh = link_.take();
+    packets.insert(packets.end(), std::make_move_iterator(fresh.begin()), std::make_move_iterator(fresh.end()));
+    const auto is_counted = [&](const msg::Packet& packet) {
+      return std::ranges::any_of(grant.inputs, [&](const auto& input) {
+        return input.first == packet.envelope.topic_id && packet.envelope.seq < input.second;
+      });
+    };
+    const auto early = std::stable_partition(packets.begin(), packets.end(), is_counted);
+    early_.assign(std::make_move_iterator(early), std::make_move_iterator(packets.end()));
+    packets.erase(early, packets.end());
+    return packets;
   }
 
   PeerError broken_promise(const msg::Packet& packet) const {
@@ -161,6 +208,8 @@ class Participant {
   OpenSession open_;
   std::unique_ptr<Session> session_;
   bus::Link link_;
+  std::vector<msg::Packet> early_;  // of the epoch
+  std::deque<std::string> heard_;   // of the clock, out of turn
   std::uint32_t epoch_ = 1;
   int exit_code_ = kExitOk;  // of the first epoch that has one
   std::chrono::milliseconds patience_{0};
@@ -177,6 +226,10 @@ int participate(const OpenSession& open, const Meeting& meeting) {
   if (participant.completes_files()) termination.emplace([&] { participant.interrupt(); });
   try {
     return participant.run();
+  } catch (const InjectedKill& kill) {
+    participant.leave();
+    ::kill(::getpid(), kill.signal);
+    return kExitInterrupted;  // files are completed as the node goes
   } catch (const std::exception& e) {
     if (termination && termination->asked()) return kExitInterrupted;  // files are completed as the node goes
     const auto* known = dynamic_cast<const ExitError*>(&e);

@@ -308,6 +308,9 @@ Begin read_epoch(std::string_view text) {
 std::string encode_late(bool late) { return json{{"kind", "late"}, {"late", late}}.dump(); }
 bool read_late(std::string_view text) { return field<bool>(parse(text), "late"); }
 
+std::string encode_lost(const std::string& process) { return json{{"kind", "lost"}, {"process", process}}.dump(); }
+std::string read_lost(std::string_view text) { return field<std::string>(parse(text), "process"); }
+
 std::string kind_of(std::string_view text) {
   if (text.starts_with('G')) return "grant";
   if (text.starts_with('D')) return "done";

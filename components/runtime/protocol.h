@@ -94,6 +94,9 @@ Begin read_epoch(std::string_view json);
 /// {"kind":"late","late":true}
 std::string encode_late(bool late);
 bool read_late(std::string_view json);
+/// {"kind":"lost","process":..}: nothing more will come of it than the grants count.
+std::string encode_lost(const std::string& process);
+std::string read_lost(std::string_view json);
 /// {"kind":"failed","code":..,"message":..,"culprit":..}
 std::string encode_failed(const Failed& failed);
 Failed read_failed(std::string_view json);

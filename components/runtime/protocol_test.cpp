@@ -60,6 +60,7 @@ TEST_CASE("ports for viewers stand apart in a HELLO, and are no output as well")
                     "live_only[0].port: \"ping\" is an output as well");
   CHECK(protocol::read_late(protocol::encode_late(true)));
   CHECK_FALSE(protocol::read_late(protocol::encode_late(false)));
+  CHECK(protocol::read_lost(protocol::encode_lost("agent")) == "agent");
 }
 
 TEST_CASE("what is not a control message is reported, without a crash") {

@@ -4,6 +4,10 @@
 
 namespace ensonify {
 
+void SteeringFeedParameters::check(const ConfigReader& from) const {
+  if (sources.empty()) from.problem("sources", "names none; allowed: one or more");
+}
+
 SteeringFeedConfig SteeringFeedConfig::read(ConfigReader& from, const World& world, const std::string&) {
   SteeringFeedConfig config;
   read_parameters<SteeringFeedParameters>(from, config);

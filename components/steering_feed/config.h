@@ -1,9 +1,10 @@
 #pragma once
 
-#include <limits>
 #include <optional>
+#include <vector>
 
 #include "components/config/parameters.h"
+#include "components/feeds/byte_source.h"
 #include "scenarios/world/world.h"
 
 namespace ensonify {
@@ -11,7 +12,8 @@ namespace ensonify {
 class ConfigReader;
 
 struct SteeringFeedParameters {
-  int port = 10111;
+  std::vector<ByteSource> sources{{.name = "package", .way = ByteSource::Udp{10111}}};
+  bool recorded = false;
   int command_rate_hz = 10;
   double speed_mps = 2.0;
   std::optional<double> depth_m;
@@ -20,7 +22,9 @@ struct SteeringFeedParameters {
   std::optional<double> variation_rad;
 
   static void parameters(auto& self, auto&& visit) {
-    visit("port", "", in(1024, 65535), "UDP port on the loopback interface", self.port);
+    visit("sources", "sources of sentences, by names of your own", self.sources);
+    visit("recorded", "", any(),
+          "record in place of the sources: the input `data` brings what another run took of them", self.recorded);
     visit("command_rate_hz", "Hz", in(1, 100), "commands published per second, while sentences come",
           self.command_rate_hz);
     visit("speed_mps", "m/s", in(0, 100), "speed through the water to order; the sentences have none", self.speed_mps);
@@ -31,6 +35,7 @@ struct SteeringFeedParameters {
     visit("variation_deg", "deg", in(-180, 180),
           "magnetic variation, east positive; left out: magnetic bearings are not taken", self.variation_rad);
   }
+  void check(const ConfigReader& from) const;
 };
 
 struct SteeringFeedConfig : SteeringFeedParameters {

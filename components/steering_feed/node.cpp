@@ -1,12 +1,13 @@
 #include "components/steering_feed/node.h"
 
-#include "components/errors/exit_error.h"
+#include <string>
+#include <string_view>
+
 #include "kernels/vehicle/guidance/laws.h"
 
 namespace ensonify {
 namespace {
 
-constexpr int kMostDatagrams = 1000;  // at an event: a flood must not stop the run
 constexpr double kDriftSettles_s = 10.0;
 
 }  // namespace
@@ -16,7 +17,9 @@ SteeringFeedNode::SteeringFeedNode(const Config& config, Ports& ports)
       ports_(ports),
       commands_due_(Rate{config.command_rate_hz, 1}),
       course_(config, [this](const std::string& what) { ports_.count(what); }),
-      commands_(ports.out<msg::Guidance>("command", {.rate = Rate{config.command_rate_hz, 1}})) {
+      commands_(ports.out<msg::Guidance>("command", {.rate = Rate{config.command_rate_hz, 1}})),
+      input_(ports, config.sources, config.recorded, Rate{config.command_rate_hz, 1}),
+      lines_(config.sources.size()) {
   ports.in<msg::Estimate>("estimate", [this](const msg::Estimate& estimate) { estimate_ = estimate; });
   if (config.origin) {
     world_.emplace(*config.origin);
@@ -29,7 +32,7 @@ SteeringFeedNode::SteeringFeedNode(const Config& config, Ports& ports)
 
 SimTime SteeringFeedNode::step(SimTime now) {
   if (!commands_due_.due(now)) return commands_due_.next();
-  if (!receiver_) listen();
+  input_.open();
   receive(now);
   if (!estimate_ || !world_) return commands_due_.next();
   const frames::Vec2 velocity_mps(estimate_->velocity_enu_mps[0], estimate_->velocity_enu_mps[1]);
@@ -38,7 +41,8 @@ SimTime SteeringFeedNode::step(SimTime now) {
       guidance::learn_drift(drift_enu_mps_, velocity_mps, heading_rad, 1.0 / config_.command_rate_hz, kDriftSettles_s);
   const auto order = course_.order(now, velocity_mps.norm());
   if (!order) {
-    ports_.health("degraded", "no sentence that orders a heading or a leg");
+    const std::string trouble = input_.trouble();
+    ports_.health("degraded", trouble.empty() ? "no sentence that orders a heading or a leg" : trouble);
     return commands_due_.next();
   }
   ports_.health("ok", "");
@@ -59,28 +63,12 @@ double SteeringFeedNode::heading_grid_rad(const OrderedCourse::Order& order) con
   return frames::wrap_two_pi(guidance::heading_for_course_rad(grid_rad, config_.speed_mps, drift_enu_mps_));
 }
 
-void SteeringFeedNode::listen() {
-  const std::string here = "127.0.0.1";
-  try {
-    receiver_.emplace(udp_channel(here, config_.port, Senders({here})));
-  } catch (const UserError& error) {
-    throw UserError(std::string("port: ") + error.what());
-  }
-}
-
 void SteeringFeedNode::receive(SimTime now) {
-  for (int i = 0; i < kMostDatagrams; ++i) {
-    const auto arrival = receiver_->take();
-    if (!arrival) break;
-    course_.take(arrival->piece.bytes, now);
+  for (const FedPiece& piece : input_.take(now)) {
+    lines_[piece.source].take(
+        piece.bytes, piece.begins, piece.whole, [&](std::string_view line) { course_.take(line, now); },
+        [this] { ports_.count("lines_too_long"); });
   }
-  const Receiver::State state = receiver_->state();
-  const auto grown = [&](const char* what, std::uint64_t total, std::uint64_t& before) {
-    if (total > before) ports_.count(what, static_cast<std::int64_t>(total - before));
-    before = total;
-  };
-  grown("senders_refused", state.refused, refused_);
-  grown("bytes_dropped", state.dropped_bytes, dropped_bytes_);
 }
 
 }  // namespace ensonify

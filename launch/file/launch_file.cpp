@@ -239,6 +239,7 @@ void ProcessSpec::check(const ConfigReader& from) const {
     from.problem("run", "\"" + component + "\" is not a component; a foreign program is written as a list");
   }
   if (respawn && !observer) from.problem("respawn", "is only for observers; a lost participant ends the run");
+  if (may_be_lost && observer) from.problem("may_be_lost", "is for participants; an observer may always be lost");
 }
 
 void ProcessSpec::complete(ConfigReader& from) {

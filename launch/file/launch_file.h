@@ -77,6 +77,7 @@ struct ProcessSpec : Program {
   double join_s = 30.0;
   bool observer = false;
   bool respawn = false;
+  bool may_be_lost = false;
   std::optional<double> memory_mb;  // most resident memory; nothing: only the run as a whole is bounded
   ConfigPlace place;                // of its stanza
 
@@ -86,6 +87,8 @@ struct ProcessSpec : Program {
     visit("join_s", "s", in(0.01, 86400), "time for which an external process is awaited", self.join_s);
     visit("observer", "", any(), "process that may be lost without ending the run", self.observer);
     visit("respawn", "", any(), "observer that is started again", self.respawn);
+    visit("may_be_lost", "", any(), "participant that the run goes on without once it has died or stood still",
+          self.may_be_lost);
     visit("memory_mb", "MB", in(1, 1e9), "resident memory that it may hold, with what it starts; more ends the run",
           self.memory_mb);
     visit("cpus", "", computed(in(0, 4095)), "processors that it may run on", self.cpus);

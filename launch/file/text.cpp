@@ -22,6 +22,7 @@ std::string canonical_text(const Launch& launch) {
       }
     }
     stanza.set("run", std::move(run));
+    if (process.may_be_lost) stanza.set("may_be_lost", ConfigNode::text("true"));
     ConfigNode config = process.config.root;
     if (process.place.file == "--record") {  // the same run in another file is the same run
       config.entries.erase(config.entries.begin());

@@ -67,6 +67,7 @@ class Batches(SystemTest):
                    ("target_passed", "speed_mps: 0.4", "speed_mps: 1.0"),
                    ("cross_talk", "mode: interleaved", "mode: free"),
                    ("coverage_complete", "ping_rate_hz: 3", "ping_rate_hz: 0.4"),
+                   ("agent_killed", ", may_be_lost: true", ""),
                    ("killed", "at_s: 4", "at_s: 400"))
         self.assertEqual({name for name, *_ in changes}, {file.stem for file in SHIPPED.glob("*.yaml")})
         (self.folder / "broken").mkdir()

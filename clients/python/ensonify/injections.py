@@ -15,6 +15,14 @@ from ensonify.session import EXIT_BAD_INPUT, RunError
 FOR_EVER = 2**63 - 1
 
 
+class InjectedKill(BaseException):
+    """The launch kills this process now, by this signal. What it has published before is still to leave."""
+
+    def __init__(self, number: int):
+        super().__init__()
+        self.signal = number
+
+
 class Injector:
     """Does to a process's outputs, and to the process, what is to be injected, in sim time of an epoch."""
 
@@ -28,13 +36,13 @@ class Injector:
         self._numbers: collections.Counter = collections.Counter()
 
     def begin_step(self, t_ns: int) -> None:
-        """Ends or stops the process if it is time; then publishes what has been delayed until now."""
+        """Raises InjectedKill, or stops the process, if it is time; then publishes what has been delayed until now."""
         for number, one in enumerate(self._all):
             if one["kind"] not in ("kill", "pause") or t_ns < one["from_ns"] or number in self._said:
                 continue
             self._say(number, t_ns, f"{one['kind']} target={one['target']}")
             if one["kind"] == "kill":
-                os.kill(os.getpid(), one.get("signal", signal.SIGKILL))
+                raise InjectedKill(one.get("signal", signal.SIGKILL))
             else:
                 subprocess.Popen(["sh", "-c", f"sleep {float(one['wall_s'])}; kill -CONT {os.getpid()}"])
                 os.kill(os.getpid(), signal.SIGSTOP)

@@ -17,7 +17,7 @@ import sys
 from typing import Any, Iterator, Mapping
 
 from ensonify import wire
-from ensonify.injections import Injector
+from ensonify.injections import InjectedKill, Injector
 from ensonify.launching import assignments
 from ensonify.rate_limit import RateLimit
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
@@ -222,7 +222,7 @@ class Participant:
                 step = Step(t_ns, first_ns + n * 1_000_000_000 * den // num if num else wire.NEVER)
                 self._now_ns = t_ns
                 if self._injector is not None:
-                    self._injector.begin_step(t_ns)
+                    self._begin_step(t_ns)
                 self._deliver(t_ns)
                 yield step
                 self._now_ns = None
@@ -358,6 +358,16 @@ class Participant:
         if self._injector is None:
             return publish(content)
         return self._injector.send(port, self._now_ns, content, publish)
+
+    def _begin_step(self, t_ns: int) -> None:
+        try:
+            self._injector.begin_step(t_ns)
+        except InjectedKill as kill:  # the others know of all that was published before
+            self._session.done(t_ns, False, 0)
+            self._session.close()
+            self._left = True
+            os.kill(os.getpid(), kill.signal)
+            raise SystemExit(128 + kill.signal) from None  # who catches that signal ends all the same
 
     def _publish(self, topic: bytes, topic_id: int, type_hash: int, body: list) -> None:
         if self._now_ns is None:

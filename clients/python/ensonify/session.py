@@ -78,6 +78,9 @@ class Session:
         self._arrived: dict = {}  # topic id -> messages so far
         self._topics: dict = {}  # first frame of a topic's messages -> its entry in WELCOME
         self._published: dict = {}  # topic id -> messages so far
+        self._early: list = []  # packets that no grant has counted yet
+        self._lost: set = set()  # processes that are no more
+        self._closed: set = set()  # topics of theirs of which not all has come
         try:
             self._bind(clock)
         except zmq.ZMQError as error:
@@ -132,6 +135,7 @@ class Session:
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
         self._topics = {entry["topic"].encode() + b"\0": {**entry, "hash": wire.type_hash(entry["type"])} for entry in welcome["in"]}
         self._arrived = {entry["topic_id"]: 0 for entry in welcome["in"]}
+        self._early = []
         return welcome
 
     def _subscribe(self, inputs: list) -> None:
@@ -175,11 +179,17 @@ class Session:
         return None
 
     def collect(self, grant: wire.Grant, deliver) -> bool:
-        """Calls deliver(topic id, packet) for whatever arrives until the grant's input vector has. False if the run
-        ended meanwhile."""
-        for topic_id, count in () if self._sub.closed else grant.counts:
+        """Calls deliver(topic id, packet) for all that the grant counts, once it has arrived. What it does not count waits:
+        should its publisher be lost before it has counted it, nobody reads it. False if the run ended meanwhile."""
+        if self._sub.closed:
+            return True
+        counts = dict(grant.counts)
+        arrived, self._early = self._early, []
+        for packet in arrived:
+            self._sort_in(packet, counts, deliver)
+        for topic_id, count in grant.counts:
             waited_ms = 0
-            while self._arrived.get(topic_id, count) < count:
+            while self._arrived.get(topic_id, count) < count and topic_id not in self._closed:
                 try:
                     topic = self._sub.recv()
                 except zmq.Again:
@@ -188,6 +198,9 @@ class Session:
                         self._control_message(self._control.recv())
                     if self.end_code is not None:
                         return False
+                    if self._publisher(topic_id) in self._lost:
+                        self._closed.add(topic_id)
+                        break
                     waited_ms += WAKE_MS
                     if waited_ms > 1000 * self._patience_s:
                         raise self._missing(topic_id, count)
@@ -195,8 +208,20 @@ class Session:
                 waited_ms = 0
                 packet = self._packet(topic)
                 if packet is not None:
-                    deliver(packet.envelope.topic_id, packet)
+                    self._sort_in(packet, counts, deliver)
         return True
+
+    def _sort_in(self, packet: Packet, counts: dict, deliver) -> None:
+        topic_id = packet.envelope.topic_id
+        if topic_id in self._closed:
+            return
+        if packet.envelope.seq < counts.get(topic_id, 0):
+            deliver(topic_id, packet)
+        else:
+            self._early.append(packet)
+
+    def _publisher(self, topic_id: int) -> str:
+        return next(entry["publisher"] for entry in self._topics.values() if entry["topic_id"] == topic_id)
 
     def _missing(self, topic_id: int, count: int) -> RunError:
         entry = next(entry for entry in self._topics.values() if entry["topic_id"] == topic_id)
@@ -299,6 +324,8 @@ class Session:
             raise RunError("\n".join(message["problems"]), EXIT_BAD_INPUT)
         if message.get("kind") == "end":
             self.end_code = message.get("code", EXIT_OK)
+        if message.get("kind") == "lost":
+            self._lost.add(message["process"])
         if message.get("kind") == "epoch":
             self.next_epoch = message["epoch"]
 

@@ -59,18 +59,32 @@ Link::Link(const std::string& name, const std::string& clock_endpoint, const Add
   sockets_->live_endpoint = bind_live(sockets_->live, address, name);
 }
 
-Link::~Link() { sockets_->context.shutdown(); }
+Link::~Link() { leave(); }
+
+void Link::leave() {
+  if (sockets_) sockets_->context.shutdown();
+  receiver_.reset();
+  sockets_.reset();  // lingers
+}
 
 const std::string& Link::sync_endpoint() const { return sockets_->sync_endpoint; }
 const std::string& Link::live_endpoint() const { return sockets_->live_endpoint; }
 
-void Link::interrupt() { sockets_->context.shutdown(); }
+void Link::interrupt() {
+  if (sockets_) sockets_->context.shutdown();
+}
 
 void Link::send_control(std::string_view text) { sockets_->clock.send(zmq::buffer(text)); }
 
 std::optional<std::string> Link::wait_control() {
   zmq::message_t message;
   if (!sockets_->clock.recv(message)) return std::nullopt;
+  return message.to_string();
+}
+
+std::optional<std::string> Link::take_control() {
+  zmq::message_t message;
+  if (!sockets_->clock.recv(message, zmq::recv_flags::dontwait)) return std::nullopt;
   return message.to_string();
 }
 
@@ -99,9 +113,12 @@ void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32
   else receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch, sockets_->keys);
 }
 
-void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience) {
-  receiver_->wait_arrived(counts, patience);
+void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience,
+                        const std::function<void()>& meanwhile) {
+  receiver_->wait_arrived(counts, patience, meanwhile);
 }
+
+void Link::lost(const std::string& publisher) { receiver_->lost(publisher); }
 
 void Link::expect_until(SimTime t) { receiver_->expect_until(t); }
 

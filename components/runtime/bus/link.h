@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,9 +65,13 @@ class Link {
 
   /// From any thread: whatever waits in this Link, or will, throws. Nothing can be sent any more.
   void interrupt();
+  /// Returns when all that was sent has left. Nothing else may be called after it.
+  void leave();
 
   /// The clock's next message; nothing after a while without one. Half the price of wait(), which then states why.
   std::optional<std::string> wait_control();
+  /// The same, if it has come already.
+  std::optional<std::string> take_control();
 
   /// Starts receiving. The token of each topic is subscribed after the topic itself. Again, for a later epoch: the same
   /// topics of the same publishers; what has come of the epoch before is dropped, and so is what still comes of it.
@@ -74,7 +79,11 @@ class Link {
   /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw, and
   /// PeerError when nothing more has come for `patience`; time in which this process was stopped does not count.
   using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
-  void wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience = std::chrono::hours(1));
+  /// `meanwhile` is called now and then while it waits.
+  void wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience = std::chrono::hours(1),
+                    const std::function<void()>& meanwhile = {});
+  /// This publisher is no more. What it has sent still comes for a second; then nothing more is awaited.
+  void lost(const std::string& publisher);
   /// No message can come with a later time than this: a sender that goes beyond it is refused. kNever: nothing will be
   /// read any more, so nothing is kept.
   void expect_until(SimTime t);

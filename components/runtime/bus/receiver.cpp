@@ -11,6 +11,7 @@ namespace ensonify::bus {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
 constexpr int kPollMs = 500;  // how soon an error of the thread is noticed
+constexpr std::chrono::seconds kAfterLoss{1};
 constexpr std::size_t kLeastLargestFrame = 1 << 24;
 }  // namespace
 
@@ -85,6 +86,7 @@ void Receiver::judge(std::vector<zmq::message_t>&& frames) {
 }
 
 void Receiver::accept(Input& input, msg::Packet&& packet) {
+  if (input.closed) return;
   const Subscription& s = input.subscription;
   const msg::Envelope& e = packet.envelope;
   const auto broken = [&](const std::string& what) { throw broken_message(s.publisher, s.topic, e.seq, what); };
@@ -121,8 +123,26 @@ PeerError Receiver::missing(const Link::TopicCounts& counts) const {
 bool Receiver::all_arrived(const Link::TopicCounts& counts) const {
   return std::all_of(counts.begin(), counts.end(), [this](const auto& count) {
     const auto found = inputs_.find(count.first);
-    return count.second == 0 || (found != inputs_.end() && found->second.arrived >= count.second);
+    return count.second == 0 ||
+           (found != inputs_.end() && (found->second.arrived >= count.second || found->second.closed));
   });
+}
+
+void Receiver::lost(const std::string& publisher) {
+  const std::lock_guard lock(mutex_);
+  const auto until = std::chrono::steady_clock::now() + kAfterLoss;
+  for (auto& [id, input] : inputs_) {
+    if (input.subscription.publisher == publisher) input.awaited_until = until;
+  }
+}
+
+void Receiver::close_lost(const Link::TopicCounts& counts) {
+  const auto now = std::chrono::steady_clock::now();
+  for (const auto& [id, count] : counts) {
+    const auto found = inputs_.find(id);
+    if (found == inputs_.end() || !found->second.awaited_until) continue;
+    found->second.closed |= found->second.arrived < count && now >= *found->second.awaited_until;
+  }
 }
 
 void Receiver::rethrow() {
@@ -136,7 +156,8 @@ void Receiver::fail(std::exception_ptr why) {
   news_.notify_one();
 }
 
-void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience) {
+void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience,
+                            const std::function<void()>& meanwhile) {
   std::unique_lock lock(mutex_);
   awaited_ = &counts;
   std::size_t before = packets_.size();
@@ -144,6 +165,12 @@ void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::millis
        !news_.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] { return error_ || all_arrived(counts); });) {
     waited = packets_.size() == before ? waited + std::chrono::milliseconds(kPollMs) : std::chrono::milliseconds(0);
     before = packets_.size();
+    if (meanwhile) {
+      lock.unlock();
+      meanwhile();
+      lock.lock();
+    }
+    close_lost(counts);
     if (waited < patience) continue;
     awaited_ = nullptr;
     throw missing(counts);

@@ -29,7 +29,9 @@ class Receiver {
 
   /// Expects an epoch's messages from its first on.
   void begin(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
-  void wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience);
+  void wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience,
+                    const std::function<void()>& meanwhile);
+  void lost(const std::string& publisher);
   void expect_until(SimTime t) { latest_ = t.count(); }
   std::vector<msg::Packet> take();
   /// Throws what the thread threw.
@@ -40,8 +42,10 @@ class Receiver {
     explicit Input(const Subscription& s) : subscription(s), limit(s.rate) {}
     Subscription subscription;
     RateLimit limit;
-    SimTime last{0};            // time of the last message
-    std::uint64_t arrived = 0;  // the next message's seq
+    SimTime last{0};                                                          // time of the last message
+    std::uint64_t arrived = 0;                                                // the next message's seq
+    std::optional<std::chrono::steady_clock::time_point> awaited_until = {};  // of a publisher that is lost
+    bool closed = false;                                                      // what has not come is not taken any more
   };
 
   void connect(const Subscription& s);
@@ -50,6 +54,7 @@ class Receiver {
   void accept(Input& input, msg::Packet&& packet);
   PeerError missing(const Link::TopicCounts& counts) const;
   bool all_arrived(const Link::TopicCounts& counts) const;
+  void close_lost(const Link::TopicCounts& counts);
   void fail(std::exception_ptr why);
 
   zmq::socket_t socket_;

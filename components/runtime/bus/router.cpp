@@ -131,6 +131,9 @@ ClockQuery::ClockQuery(const std::string& clock_endpoint, const std::optional<Ke
 ClockQuery::~ClockQuery() = default;
 
 std::optional<std::string> ClockQuery::ask(std::string_view request, std::chrono::milliseconds patience) {
+  zmq::message_t late;  // an answer that nobody waited for any more
+  while (sockets_->socket.recv(late, zmq::recv_flags::dontwait)) {
+  }
   sockets_->socket.send(zmq::buffer(request));
   zmq::pollitem_t item{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0};
   zmq::message_t answer;

@@ -1,8 +1,7 @@
-#include "components/nav_feed/arrival_clock.h"
+#include "components/feeds/arrival_clock.h"
 
 #include <catch2/catch.hpp>
-
-#include "kernels/base/random/stream.h"
+#include <random>
 
 using namespace ensonify;
 
@@ -14,11 +13,12 @@ ArrivalClock::Wall wall(SimTime since_start) { return ArrivalClock::Wall{std::ch
 }  // namespace
 
 TEST_CASE("late events do not move arrivals") {
-  const random::Stream chance(5, "arrival_clock_test");
+  std::minstd_rand chance(5);
   ArrivalClock clock;
   for (int i = 0; i < 1000; ++i) {
     const SimTime now = i * 10_ms;
-    const SimTime late = from_seconds(i % 7 == 0 ? 0.0 : 0.02 * chance.uniform(static_cast<std::uint64_t>(i)));
+    const SimTime late =
+        from_seconds(i % 7 == 0 ? 0.0 : 0.02 * static_cast<double>(chance()) / std::minstd_rand::max());
     clock.event(now, wall(now + late));
     const SimTime off = clock.of(wall(now - 3_ms)) - (now - 3_ms);
     REQUIRE(off <= SimTime{0});

@@ -1,4 +1,4 @@
-#include "components/nav_feed/feed_message.h"
+#include "components/feeds/feed_message.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,8 +8,8 @@ using namespace ensonify;
 
 namespace {
 
-std::vector<FeedSource> two_sources() {
-  std::vector<FeedSource> sources(2);
+std::vector<ByteSource> two_sources() {
+  std::vector<ByteSource> sources(2);
   sources[0].name = "gnss";
   sources[1].name = "mru";
   return sources;

@@ -1,4 +1,4 @@
-#include "components/nav_feed/sources.h"
+#include "components/feeds/sources.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,28 +9,28 @@
 namespace ensonify {
 namespace {
 
-std::variant<std::unique_ptr<Receiver>, std::unique_ptr<LogPlayer>> opened(const FeedSource& source) {
+std::variant<std::unique_ptr<Receiver>, std::unique_ptr<LogPlayer>> opened(const ByteSource& source) {
   const Senders senders(source.senders);
   const auto receive = [](std::unique_ptr<Channel> channel) { return std::make_unique<Receiver>(std::move(channel)); };
   using Result = std::variant<std::unique_ptr<Receiver>, std::unique_ptr<LogPlayer>>;
   return std::visit(
       Overloaded{
-          [&](const FeedSource::Udp& way) -> Result { return receive(udp_channel(source.at, way.port, senders)); },
-          [&](const FeedSource::TcpServer& way) -> Result {
+          [&](const ByteSource::Udp& way) -> Result { return receive(udp_channel(source.at, way.port, senders)); },
+          [&](const ByteSource::TcpServer& way) -> Result {
             return receive(tcp_server_channel(source.at, way.port, senders));
           },
-          [&](const FeedSource::TcpClient& way) -> Result {
+          [&](const ByteSource::TcpClient& way) -> Result {
             return receive(tcp_client_channel(way.address, way.port));
           },
-          [&](const FeedSource::Serial& way) -> Result { return receive(serial_channel(way.line, way.baud)); },
-          [&](const FeedSource::File& way) -> Result { return std::make_unique<LogPlayer>(way.path); }},
+          [&](const ByteSource::Serial& way) -> Result { return receive(serial_channel(way.line, way.baud)); },
+          [&](const ByteSource::File& way) -> Result { return std::make_unique<LogPlayer>(way.path); }},
       source.way);
 }
 
 }  // namespace
 
-Sources::Sources(const std::vector<FeedSource>& sources) {
-  for (const FeedSource& source : sources) {
+Sources::Sources(const std::vector<ByteSource>& sources) {
+  for (const ByteSource& source : sources) {
     try {
       open_.push_back({source.name, opened(source), std::nullopt});
     } catch (const UserError& error) {

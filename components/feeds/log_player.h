@@ -14,7 +14,7 @@ namespace ensonify {
 /// leaps by more than an hour, the log goes on at once from there.
 class LogPlayer {
  public:
-  /// Throws UserError when the file cannot be read.
+  /// Throws UserError when the file cannot be read, or no sentence of it has a time.
   explicit LogPlayer(const std::string& path);
 
   struct Line {

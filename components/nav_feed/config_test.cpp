@@ -1,12 +1,9 @@
-#include "components/nav_feed/sources.h"
+#include "components/nav_feed/config.h"
 
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "components/config/config_reader.h"
 #include "components/config/read_parameters.h"
-#include "components/nav_feed/config.h"
 
 using namespace ensonify;
 
@@ -18,12 +15,6 @@ NavFeedParameters read(const std::string& yaml) {
   read_parameters(from, parameters);
   from.finish();
   return parameters;
-}
-
-std::filesystem::path log_of(const std::string& name, const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / ("ensonify_sources_test_" + name);
-  std::ofstream(path) << text;
-  return path;
 }
 
 }  // namespace
@@ -61,31 +52,4 @@ TEST_CASE("addresses that are none, and senders that cannot reach the source, ar
                     Catch::Contains("sources.a.senders: \"gyro\" is no address"));
   CHECK_THROWS_WITH(read("sources: {a: {tcp: 4001, of: '::1:4001:'}}"),
                     Catch::Contains("sources.a.of: \"::1:4001:\" is no host"));
-}
-
-TEST_CASE("pieces of several logs come in the order of their arrival, as sim time goes on") {
-  const auto first =
-      log_of("a", "2014-08-01T00:00:00Z $GPZDA,120000.00,01,08,2014,,*6B\n$GPZDA,120002.00,01,08,2014,,*69\n");
-  const auto second = log_of("b", "$GPZDA,235959.50,01,08,2014,,*6C\n$GPZDA,000000.50,02,08,2014,,*6E\n");
-  std::vector<FeedSource> logs(2);
-  logs[0].way = FeedSource::File{first};
-  logs[1].way = FeedSource::File{second};
-  Sources sources(logs);
-  std::vector<std::pair<std::size_t, double>> taken;
-  for (int i = 0; i <= 300; ++i) {
-    for (const FedPiece& piece : sources.take(from_seconds(0.01 * i))) {
-      CHECK(piece.bytes.front() == '$');
-      taken.emplace_back(piece.source, seconds(piece.arrival));
-    }
-  }
-  CHECK(taken == std::vector<std::pair<std::size_t, double>>{{0, 0.0}, {1, 0.0}, {1, 1.0}, {0, 2.0}});
-  std::filesystem::remove(first);
-  std::filesystem::remove(second);
-}
-
-TEST_CASE("a source that cannot be opened is named") {
-  std::vector<FeedSource> one(1);
-  one[0].name = "gyro";
-  one[0].way = FeedSource::Serial{"/dev/no_such_line", 4800};
-  CHECK_THROWS_WITH(Sources(one), Catch::Contains("sources.gyro: cannot open the serial line /dev/no_such_line"));
 }

@@ -1,11 +1,11 @@
-#include "components/nav_feed/feed_message.h"
+#include "components/feeds/feed_message.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace ensonify {
 
-msg::FeedData feed_data(SimTime now, const std::vector<FeedSource>& sources, const std::vector<FedPiece>& pieces) {
+msg::FeedData feed_data(SimTime now, const std::vector<ByteSource>& sources, const std::vector<FedPiece>& pieces) {
   msg::FeedData data;
   data.stamp_ns = now.count();
   std::vector<std::uint8_t> bytes;
@@ -18,14 +18,14 @@ msg::FeedData feed_data(SimTime now, const std::vector<FeedSource>& sources, con
   return data;
 }
 
-std::size_t most_feed_bytes(const std::vector<FeedSource>& sources) {
+std::size_t most_feed_bytes(const std::vector<ByteSource>& sources) {
   std::size_t of_a_piece = 96;  // its map, without the name
-  for (const FeedSource& source : sources) of_a_piece = std::max(of_a_piece, 96 + source.name.size());
+  for (const ByteSource& source : sources) of_a_piece = std::max(of_a_piece, 96 + source.name.size());
   const std::size_t pieces = Sources::kMostPieces + sources.size();
   return Sources::kMostBytes + sources.size() * Sources::kLargestPiece + pieces * of_a_piece + 1024;
 }
 
-void append_pieces(const msg::FeedData& data, const std::vector<FeedSource>& sources, std::vector<FedPiece>& pieces) {
+void append_pieces(const msg::FeedData& data, const std::vector<ByteSource>& sources, std::vector<FedPiece>& pieces) {
   std::size_t at = 0;
   for (const msg::FeedPiece& piece : data.pieces) {
     const std::size_t left = data.bytes.size() - at;
@@ -34,7 +34,7 @@ void append_pieces(const msg::FeedData& data, const std::vector<FeedSource>& sou
     if (count > 0) std::memcpy(bytes.data(), data.bytes.data() + at, count);
     at += count;
     const auto source = std::find_if(sources.begin(), sources.end(),
-                                     [&](const FeedSource& known) { return known.name == piece.source; });
+                                     [&](const ByteSource& known) { return known.name == piece.source; });
     if (source == sources.end()) continue;
     pieces.push_back({static_cast<std::size_t>(source - sources.begin()), SimTime{piece.arrival_ns}, std::move(bytes),
                       piece.begins, piece.whole});

@@ -1,4 +1,4 @@
-#include "components/nav_feed/log_player.h"
+#include "components/feeds/log_player.h"
 
 #include <utility>
 
@@ -22,17 +22,31 @@ std::optional<double> time_of(const nmea::Navigation& sentence) {
   return std::nullopt;
 }
 
+/// What a logger puts before a sentence is left out.
+std::string without_stamp(const std::string& line) {
+  const std::size_t begin = line.find('$');
+  return begin == std::string::npos ? line : line.substr(begin);
+}
+
 }  // namespace
 
 LogPlayer::LogPlayer(const std::string& path) : file_(path) {
   if (!file_) throw UserError(path + ": cannot be read");
+  std::string line;
+  while (std::getline(file_, line)) {
+    if (time_of(nmea::read_navigation(without_stamp(line)))) {
+      file_.clear();
+      file_.seekg(0);
+      return;
+    }
+  }
+  throw UserError(path + ": no sentence of it has a time; needs some that do, such as ZDA, RMC or GGA");
 }
 
 void LogPlayer::read_next() {
   std::string line;
   if (!std::getline(file_, line)) return;
-  const std::size_t begin = line.find('$');
-  if (begin != std::string::npos) line.erase(0, begin);
+  line = without_stamp(line);
   if (const auto time_s = time_of(nmea::read_navigation(line))) {
     const double step_s = time_of_day_s_ ? formats::time_of_day_step_s(*time_of_day_s_, *time_s) : 0.0;
     if (step_s > 0.0 && step_s <= kLongestPause_s) time_ += from_seconds(step_s);

@@ -7,9 +7,9 @@
 #include <variant>
 #include <vector>
 
-#include "components/nav_feed/arrival_clock.h"
-#include "components/nav_feed/feed_source.h"
-#include "components/nav_feed/log_player.h"
+#include "components/feeds/arrival_clock.h"
+#include "components/feeds/byte_source.h"
+#include "components/feeds/log_player.h"
 #include "components/runtime/sim_time.h"
 #include "components/transport/receiver.h"
 
@@ -30,7 +30,7 @@ struct FedPiece {
 class Sources {
  public:
   /// Throws UserError, with the source's name, where one cannot be opened.
-  explicit Sources(const std::vector<FeedSource>& sources);
+  explicit Sources(const std::vector<ByteSource>& sources);
 
   /// What has come by `now`, as much as an event may take: about kMostBytes and kMostPieces, in equal shares of the
   /// sources. The rest waits for the next one.

@@ -1,4 +1,4 @@
-#include "components/nav_feed/arrival_clock.h"
+#include "components/feeds/arrival_clock.h"
 
 #include <utility>
 
