@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "components/errors/printable.h"
 #include "components/runtime/tool.h"
 #include "launch/batch/find.h"
+#include "launch/batch/merge.h"
 #include "launch/batch/pool.h"
 #include "launch/batch/results.h"
 #include "launch/junit.h"
@@ -30,7 +32,7 @@ using nlohmann::ordered_json;
 constexpr std::size_t kProcessorsPerRun = 2;
 
 struct Options {
-  std::vector<std::string> paths;
+  std::vector<std::string> paths, merge;
   FindOptions find;
   std::size_t jobs = std::max<std::size_t>(1, std::thread::hardware_concurrency() / kProcessorsPerRun);
   std::string out = "out/test", junit, shard;
@@ -39,8 +41,8 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option("PATH", options.paths, "launch files, and folders whose launch files with `expect:` are run")
-      ->required();
+  auto* paths =
+      app.add_option("PATH", options.paths, "launch files, and folders whose launch files with `expect:` are run");
   app.add_option("--jobs,-j", options.jobs, "runs at once (default: half the processors, as each run takes about two)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--out", options.out, "folder of results; runs/ID has those of each run (default: out/test)");
@@ -54,6 +56,10 @@ void declare(CLI::App& app, Options& options) {
                  "wall time after which a run is ended and has failed (default: 3600)")
       ->check(CLI::Range(0.1, 1e6));
   app.add_option("--shard", options.shard, "I/N: only every N-th launch, from the I-th on, of 1 to N");
+  app.add_option(
+         "--merge", options.merge,
+         "folders of all shards: check that they belong together and nothing is missing, and join them in --out")
+      ->excludes(paths);
   app.add_flag("--resume", options.resume, "go on with --out: what is done and has not changed is not run again");
   app.add_flag("--list", options.list, "say what would be run, and run nothing");
   app.add_flag("--json", options.json, "print results as JSON on standard output");
@@ -210,7 +216,51 @@ void say_not_run(const std::vector<Found>& found) {
   }
 }
 
+/// What is written and said when all is done.
+int report(const std::vector<Found>& found, const std::vector<Job>& jobs, const Folder& folder, const Options& options,
+           std::chrono::steady_clock::time_point began) {
+  folder.write_table(jobs);
+  if (!options.junit.empty()) launcher::write_text(options.junit, junit_of(found, jobs, folder));
+  if (options.json)
+    fmt::print("{}\n", json_of(found, jobs, &folder).dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  std::size_t passed = 0, failed = 0;
+  for (const Job& job : jobs) {
+    if (const auto result = folder.result_of(job)) ++(result->passed() ? passed : failed);
+  }
+  const auto not_run =
+      static_cast<std::size_t>(std::ranges::count_if(found, [](const Found& one) { return !one.skipped.empty(); }));
+  const auto unreadable =
+      static_cast<std::size_t>(std::ranges::count_if(found, [](const Found& one) { return !one.fault.empty(); }));
+  fmt::print(options.json ? stderr : stdout, "{} passed, {} failed, {} skipped{} in {:.1f} s; results in {}\n", passed,
+             failed, not_run, unreadable > 0 ? fmt::format(", {} unreadable", unreadable) : "",
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), options.out);
+  return exit_code_of(found, jobs, folder);
+}
+
+/// The folders of shards as the one of a batch. Nobody writes into any of them meanwhile.
+int merge(const Options& options) {
+  const auto began = std::chrono::steady_clock::now();
+  std::vector<std::unique_ptr<launcher::OutFolder>> held;
+  for (const std::string& part : options.merge) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(part, options.out, ignored))
+      throw UserError("--out " + options.out + ": is one of the shards; choose another folder");
+    if (std::filesystem::is_directory(part)) held.push_back(std::make_unique<launcher::OutFolder>(part));
+  }
+  const Shards shards = read_shards(options.merge);
+  held.push_back(std::make_unique<launcher::OutFolder>(options.out));
+  Folder::forget(options.out);
+  put_together(shards, options.out);
+  const Folder folder(options.out, shards.plan);
+  for (const Job& job : shards.plan) {
+    if (!options.json) fmt::print("{}", printable(lines_of(*folder.result_of(job), job, folder, options)));
+  }
+  return report({}, shards.plan, folder, options, began);
+}
+
 int test(const Options& options) {
+  if (!options.merge.empty()) return merge(options);
+  if (options.paths.empty()) throw UserError("names no launch; allowed: launch files and folders, or --merge");
   const std::vector<Found> found = find_launches(options.paths, options.find, program_folder());
   const std::vector<Job> plan = plan_of(found), jobs = own_part(plan, options.shard);
   if (options.list) {
@@ -240,22 +290,8 @@ int test(const Options& options) {
     if (folder.result_of(job)) say(job);
   }
   const bool whole = run_jobs(jobs, folder, settings, say);
-  folder.write_table(jobs);
-  if (!options.junit.empty()) launcher::write_text(options.junit, junit_of(found, jobs, folder));
-  if (options.json)
-    fmt::print("{}\n", json_of(found, jobs, &folder).dump(2, ' ', false, ordered_json::error_handler_t::replace));
-  std::size_t passed = 0, failed = 0;
-  for (const Job& job : jobs) {
-    if (const auto result = folder.result_of(job)) ++(result->passed() ? passed : failed);
-  }
-  const auto not_run =
-      static_cast<std::size_t>(std::ranges::count_if(found, [](const Found& one) { return !one.skipped.empty(); }));
-  const auto unreadable =
-      static_cast<std::size_t>(std::ranges::count_if(found, [](const Found& one) { return !one.fault.empty(); }));
-  fmt::print(options.json ? stderr : stdout, "{} passed, {} failed, {} skipped{} in {:.1f} s; results in {}\n", passed,
-             failed, not_run, unreadable > 0 ? fmt::format(", {} unreadable", unreadable) : "",
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(), options.out);
-  return whole ? exit_code_of(found, jobs, folder) : int{kExitInterrupted};
+  const int code = report(found, jobs, folder, options, began);
+  return whole ? code : int{kExitInterrupted};
 }
 
 }  // namespace

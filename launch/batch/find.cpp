@@ -98,6 +98,7 @@ std::optional<Found> read(const std::string& file, const FindOptions& options, b
       if (process.external) found.skipped = "waits for " + process.name + ", which somebody else starts";
     }
     found.job.id = id_of(launch, program_folder);
+    found.job.programs = programs_of(launch, program_folder);
   } catch (const ConfigError& error) {
     if (!may_expect) return std::nullopt;  // a part that others include
     found.skipped = missing_argument(error);

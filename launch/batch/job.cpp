@@ -37,13 +37,6 @@ void for_texts(const ConfigNode& node, const std::function<void(const std::strin
   for (const auto& entry : node.entries) for_texts(entry.value, each);
 }
 
-/// The vector units that decide how libraries round.
-std::string vector_units() {
-  std::ifstream cpus("/proc/cpuinfo");
-  const std::string text{std::istreambuf_iterator<char>(cpus), {}};
-  return text.find(" avx512f") != std::string::npos ? "avx512" : "avx2";
-}
-
 /// Existing files that the launch and its scenario name, in order.
 std::set<std::string> files_of(const Launch& launch) {
   const std::vector<std::string> folders{fs::path(launch.file).parent_path().string(),
@@ -60,6 +53,17 @@ std::set<std::string> files_of(const Launch& launch) {
     for (const std::string& word : process.argv) look(word);
   }
   return files;
+}
+
+void add_programs(const Launch& launch, const std::string& program_folder, Sum& sum) {
+  std::set<std::string> programs{"conductor"};
+  for (const ProcessSpec& process : launch.processes) {
+    if (!process.component.empty()) programs.insert(process.component);
+  }
+  for (const std::string& program : programs) {
+    const std::string path = program_folder + "/ensonify-" + program;
+    sum.add(fs::exists(path) ? tiles::sha256_of_file(path) : program);
+  }
 }
 
 /// A word of `after:` as it was before the output folder was put in.
@@ -85,15 +89,21 @@ std::string id_of(const Launch& launch, const std::string& program_folder) {
   }
   sum.add(launch.scenario.text);
   for (const std::string& file : files_of(launch)) sum.add(tiles::sha256_of_file(file));
-  std::set<std::string> programs{"conductor"};
-  for (const ProcessSpec& process : launch.processes) {
-    if (!process.component.empty()) programs.insert(process.component);
-  }
-  for (const std::string& program : programs) {
-    const std::string path = program_folder + "/ensonify-" + program;
-    sum.add(fs::exists(path) ? tiles::sha256_of_file(path) : program);
-  }
+  add_programs(launch, program_folder, sum);
   return sum.digest();
+}
+
+std::string programs_of(const Launch& launch, const std::string& program_folder) {
+  Sum sum;
+  add_programs(launch, program_folder, sum);
+  return sum.digest();
+}
+
+/// They decide how libraries round.
+std::string vector_units() {
+  std::ifstream cpus("/proc/cpuinfo");
+  const std::string text{std::istreambuf_iterator<char>(cpus), {}};
+  return text.find(" avx512f") != std::string::npos ? "avx512" : "avx2";
 }
 
 std::string id_of(const std::vector<std::string>& words) {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "components/errors/exit_error.h"
+#include "components/runtime/version.h"
 
 namespace ensonify::batch {
 namespace {
@@ -44,8 +45,13 @@ std::string plan_text(const std::vector<Job>& plan) {
                     {"launch", job.options.file},
                     {"args", job.options.args},
                     {"sets", job.options.sets}});
+    if (!job.programs.empty()) jobs.back()["programs"] = job.programs;
   }
-  return ordered_json{{"ensonify", "plan/1"}, {"jobs", jobs}}.dump(2) + "\n";
+  ordered_json all = {{"ensonify", "plan/1"}};
+  const bool comparable = !plan.empty() && !plan.front().programs.empty();
+  if (comparable) all.update({{"version", kVersion}, {"vector_units", vector_units()}});
+  all["jobs"] = std::move(jobs);
+  return all.dump(2) + "\n";
 }
 
 /// As CSV has it.
@@ -64,7 +70,7 @@ std::size_t Result::failed() const {
 
 Folder::Folder(const std::string& path, const std::vector<Job>& plan) : path_(path) {
   launcher::make_folder(path + "/runs");
-  const std::string file = path + "/plan.json", text = plan_text(plan);
+  const std::string file = path + kPlan, text = plan_text(plan);
   if (fs::exists(file) && text_of(file) != text)
     throw UserError(path + ": holds another plan (" + file + "); choose another folder with --out, or remove it");
   write_whole(file, text);
@@ -105,7 +111,7 @@ void Folder::undo(const Job& job) const {
 }
 
 void Folder::forget(const std::string& path) {
-  const auto plan = ordered_json::parse(text_of(path + "/plan.json"), nullptr, false);
+  const auto plan = ordered_json::parse(text_of(path + kPlan), nullptr, false);
   if (!plan.is_object() || plan.value("ensonify", "") != "plan/1") return;
   std::error_code ignored;
   for (const char* own : {"/runs", "/results.csv", "/plan.json"}) fs::remove_all(path + own, ignored);

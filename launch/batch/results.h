@@ -30,6 +30,8 @@ class Folder {
   /// Makes it, or goes on with one that holds the same plan. Throws UserError where it holds another.
   Folder(const std::string& path, const std::vector<Job>& plan);
 
+  /// Its `plan.json`, with which merge() starts.
+  static constexpr const char* kPlan = "/plan.json";
   /// Removes what an earlier batch has left in a folder, if one has.
   static void forget(const std::string& path);
 

@@ -150,6 +150,28 @@ class Batches(SystemTest):
         self.assertEqual(sorted(names), ["l0.yaml", "l1.yaml", "l2.yaml"])
         self.assertEqual(self.ensonify_test(folder, "--shard", "3/2").returncode, 2)
 
+    def test_shards_merge_to_the_table_of_one_batch(self):
+        folder = self.batch(3, seconds=2)
+        (folder / "fails.yaml").write_text(boat(2).replace("above: 1 }", "above: 1000 }"))
+        out = self.folder / "parts"
+        self.assertEqual(self.ensonify_test(folder, "--out", out / "whole", "--jobs", 2).returncode, 1)
+        for part in (1, 2):
+            self.ensonify_test(folder, "--out", out / str(part), "--shard", f"{part}/2")
+        merged = self.ensonify_test("--merge", out / "1", out / "2", "--out", out / "merged", "--junit", out / "merged.xml")
+        self.assertEqual(merged.returncode, 1, merged.stderr)
+        self.assertIn("3 passed, 1 failed, 0 skipped", merged.stdout)
+        for file in ("results.csv", "plan.json"):
+            self.assertEqual((out / "merged" / file).read_bytes(), (out / "whole" / file).read_bytes())
+        self.assertEqual(len(xml.etree.ElementTree.parse(out / "merged.xml").getroot()), 4)
+        self.assertTrue(list((out / "merged/runs").glob("*/log/clock.log")))
+        for words, message in ((("--merge", out / "1", "--out", out / "x"), "2 of 4 launches are done in none of the folders"),
+                               (("--merge", out / "1", out / "whole", "--out", out / "x"), "2 of 4 launches are done more than once"),
+                               (("--merge", out / "1", out / "2", "--out", out / "2"), "is one of the shards"),
+                               (("--merge", out, "--out", out / "x"), "is no folder of `ensonify test`"), ((), "allowed: launch files and folders")):
+            refused = self.ensonify_test(*words)
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn(message, refused.stderr)
+
 
 INJECT = """
   recorder: {{ run: recorder, config: {{ file: run.mcap, topics: all }} }}
