@@ -17,6 +17,15 @@ configurations), `bench/publish.py FILE` writes this page, and `bench/compare.py
 | head | sea | pings/s | goal | rays | processor time of a ping | of a ray |
 |---|---|---|---|---|---|---|
 """
+WHOLE = """
+In real time ({seconds} s, bench/launch/table_whole.yaml: multibeam of 512 beams at 10 Hz and quality 0.25, sidescan at 15 Hz, forward-looking sonar as
+above at 10 Hz, graded navigation, and a recorder that keeps soundings, sidescan and every tenth image) a whole launch takes {share:.0f} % of the cores
+(goal: 60), and {late} of its events are late: {pings}.
+"""
+DEMO = """
+| | x real time | goal |
+|---|---|---|
+"""
 TAIL = """
 **A faster picture**: `most_rays` of a head bounds the rays of a transmission; beyond it all parts give way alike. The row of 128 beams is
 `{{ beams: 128, most_samples: 256, range_m: 20, most_rays: 21000 }}`. `quality` is the number of rays that cells of
@@ -32,6 +41,12 @@ def page(results: dict, note: str) -> str:
         goal = f"{row['goal']}{'' if row['value'] >= row['goal'] else ' (missed)'}" if row["goal"] else ""
         lines.append(f"| {row['case']} | {row['sea']} | {row['value']:.3g} | {goal} | {row['rays']:,.0f} | "
                      f"{row['processor_ms']:.3g} ms | {1e6 * row['processor_ms'] / row['rays']:.0f} ns |\n")
+    demos = [row for row in results["rows"] if "demo" in row]
+    if demos:
+        lines.append(DEMO)
+    for row in demos:
+        lines.append(f"| {row['demo']} | {row['value']:.3g} | {row['goal']}{'' if row['value'] >= row['goal'] else ' (missed)'} |\n")
+    lines += [WHOLE.format(share=row["value"], **row["whole"]) for row in results["rows"] if "whole" in row]
     lines.append(TAIL.format(**results["machine"], note=f" {note}" if note else ""))
     return "".join(lines)
 

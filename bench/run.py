@@ -27,6 +27,7 @@ from labels_bench import bench_labels
 from logger_bench import bench_logger
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
+from ratio_bench import bench_ratios
 from table_bench import bench_table
 from uncertainty_bench import bench_uncertainty
 
@@ -48,7 +49,7 @@ BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "
            "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "labels": bench_labels,
            "dataset": bench_dataset, "logger": bench_logger, "feed": bench_feed,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
-           "kernels": bench_kernels}
+           "ratios": bench_ratios, "kernels": bench_kernels}
 
 
 def machine():

@@ -3,6 +3,8 @@
 Each row is a configuration that others publish or that a launch file ships, windy (5 m/s, no path by the surface) and calm (with echoes
 by way of the surface). Pings are counted, and the rays of a ping asserted, before a speed is stated.
 """
+import os
+import time
 from dataclasses import dataclass, field
 
 from harness import ROOT, row
@@ -66,8 +68,29 @@ def measured(b, case, wind_mps):
     return pings / wall_s, 1e3 * processor_s, rays, 1e9 * processor_s / rays
 
 
+def whole_launch(b):
+    """A survey with three heads, graded navigation and a recorder, in real time."""
+    seconds = 30 if b.quick else 600
+    report = b.launch("table_whole", "--arg", f"seconds={seconds}")
+    share = 100 * sum(process.get("cpu_s", 0.0) for process in report["processes"]) / report["wall_s"] / os.cpu_count()
+    late = report["late_events"]
+    pings = ", ".join(f"{count} {name}" for name, count in report["messages"].items())
+    return row(f"whole launch in real time, {seconds} s: {pings}; {late} events late", share, "% of the cores", target="at most 60, none late",
+               ok=share <= 60 and late == 0) | {"whole": {"seconds": seconds, "late": late, "pings": pings}}
+
+
+def demo(b, quality, goal, pictures):
+    """The demo's survey, once or with what it draws afterwards, in sim seconds a wall second."""
+    began = time.monotonic()
+    report = b.launch("../../launch/demo", "--free", "--set", f"bow.quality={quality}")
+    times = report["sim_s"] / (time.monotonic() - began if pictures else report["wall_s"])
+    text = f"the demo at quality {quality}{', with its pictures' if pictures else ''}"
+    return row(text, times, "x real time", target=f"goal {goal}", ok=times >= goal) | {"demo": text, "goal": goal}
+
+
 def bench_table(b):
-    rows = []
+    rows = [] if b.quick else [demo(b, 0.25, 12, False), demo(b, 1, 8, False), demo(b, 1, 6, True)]
+    rows.append(whole_launch(b))
     for case in CASES:
         for wind_mps, name, goal in ((5, "windy", case.goal[0]), (0, "calm", case.goal[1])):
             once = sorted(measured(b, case, wind_mps) for _ in range(max(1, b.repeat // 2)))

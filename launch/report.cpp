@@ -119,6 +119,7 @@ std::string json_text(const RunReport& report) {
   json out{{"exit_code", report.code},
            {"culprit", report.cause ? json(report.cause->culprit) : json(nullptr)},
            {"message", report.cause ? json(report.cause->message) : json(nullptr)},
+           {"isa", report.isa},
            {"sim_s", report.sim_s},
            {"wall_s", report.wall_s},
            {"real_time_factor", report.wall_s > 0.0 ? report.sim_s / report.wall_s : 0.0},

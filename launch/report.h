@@ -43,6 +43,7 @@ struct Expectation {
 struct RunReport {
   int code = 0;
   std::optional<Fault> cause;
+  std::string isa;  // vector instructions that rays were traced with
   double sim_s = 0.0;
   double wall_s = 0.0;
   std::vector<ProcessReport> processes;

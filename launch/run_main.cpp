@@ -137,6 +137,7 @@ int run(Options& options) {
     throw UserError(problems.front());
   }
   check_after(launch, {program_folder(), "", out});
+  isa_of(launch);
   const OutFolder held(out);
   RunReport report;
   if (options.in_process) {
@@ -153,6 +154,7 @@ int run(Options& options) {
     Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json, options.name);
     report = supervisor.run();
   }
+  report.isa = name_of(isa_of(launch));
   if (options.profile) report.profiles = gather_profiles(out);
   write_text(out + "/run.json", json_text(report));
   if (!options.junit.empty()) {

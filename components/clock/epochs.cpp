@@ -25,6 +25,8 @@ std::vector<std::string> sets_of(const json& request) {
   for (const json& each : given) {
     if (!each.is_string()) throw std::runtime_error("set: " + each.dump() + " is not text KEY=VALUE");
     sets.push_back(each.get<std::string>());
+    if (sets.back().starts_with("isa="))
+      throw std::runtime_error("set: " + sets.back() + ": processes keep their instructions for the whole launch");
     if (sets.back().starts_with("clock."))
       throw std::runtime_error("set: " + sets.back() +
                                ": the clock's settings hold for the whole launch; allowed: keys of the scenario and of "

@@ -10,7 +10,7 @@ std::vector<Attachment> attachments_of(const std::map<std::string, std::string>&
     const auto fact = facts.find(name);
     if (fact != facts.end()) files.push_back({std::string(name) + ".yaml", "application/yaml", fact->second});
   }
-  for (const char* name : {"version", "seed"}) {
+  for (const char* name : {"version", "seed", "isa"}) {
     const auto fact = facts.find(name);
     if (fact != facts.end()) files.push_back({name, "text/plain", fact->second});
   }

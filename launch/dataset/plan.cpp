@@ -74,6 +74,8 @@ std::vector<batch::Job> jobs_of(const Recipe& recipe, const std::vector<Scene>& 
     job.options.file = std::filesystem::absolute(recipe.launch).lexically_normal().string();
     job.options.args = scene.args;
     job.options.sets = scene.sets;
+    // Shards of other machines give the same bytes, unless the recipe wants otherwise.
+    job.options.sets.insert(job.options.sets.begin(), "isa=avx2");
     job.id = batch::id_of({base, recipe.text, number, scene.pair});
     jobs.push_back(std::move(job));
   }

@@ -313,6 +313,17 @@ const ProcessSpec& Launch::process(const std::string& name) const {
   throw std::out_of_range("the launch has no process named \"" + name + "\"");
 }
 
+Isa isa_of(const Launch& launch) {
+  const Isa widest = widest_isa(), wanted = launch.isa.value_or(widest);
+  if (wanted > widest) {
+    throw ConfigError(
+        {{{launch.file},
+          "isa",
+          std::string("this machine has no ") + name_of(wanted) + "; allowed: best, " + name_of(widest)}});
+  }
+  return wanted;
+}
+
 Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenario) {
   Launch launch;
   launch.options = options;
@@ -329,6 +340,9 @@ Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenar
   if (!clock.entries.empty()) {
     document.root.set("clock", std::move(clock));
   }
+
+  const auto launch_problems = apply(targets.launch, document.root);
+  document.problems.insert(document.problems.end(), launch_problems.begin(), launch_problems.end());
 
   ConfigReader from(std::move(document));
   LaunchKeys keys;
@@ -347,6 +361,7 @@ Launch read_launch(const LaunchOptions& options, const ReadScenario& read_scenar
   }
   read_wiring(from, keys.wiring, launch);
   launch.clock = keys.clock;
+  launch.isa = keys.isa;
   launch.after = keys.after.steps;
   if (keys.duration_s) {
     launch.duration = from_seconds(*keys.duration_s);

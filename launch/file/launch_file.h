@@ -12,6 +12,7 @@
 #include "components/config/parse_yaml.h"
 #include "components/runtime/injections.h"
 #include "components/runtime/sim_time.h"
+#include "kernels/base/isa/isa.h"
 #include "scenarios/scenario_file.h"
 
 namespace CLI {
@@ -172,6 +173,7 @@ struct Launch {
   std::vector<ProcessSpec> processes;  // publishers rank in this order
   std::vector<Connection> wiring;
   ClockSettings clock;
+  std::optional<Isa> isa;  // nothing: the widest that the machine has
   std::vector<Injection> injections;
   std::vector<ExitExpectation> exits;
   std::vector<AfterStep> after;     // commands to run when all went well
@@ -183,6 +185,10 @@ struct Launch {
   /// By name; throws std::out_of_range.
   const ProcessSpec& process(const std::string& name) const;
 };
+
+/// Vector instructions that processes of the launch use on this machine. Throws ConfigError where it has not those that
+/// the launch file wants.
+Isa isa_of(const Launch& launch);
 
 /// Reads a scenario further than its header: given its reader, which finish() completes, and its file.
 using ReadScenario = std::function<void(ConfigReader&, const std::string& file)>;

@@ -165,6 +165,20 @@ TEST_CASE("--set and set: change processes, scenario and clock; the command line
       "--set water.phh: is not a known key; did you mean ph?");
 }
 
+TEST_CASE("instructions are the machine's widest, or those that the launch or the command line names") {
+  const Folder folder;
+  folder.add("x.yaml", std::string(kLaunch) + "isa: best\n");
+  CHECK_FALSE(folder.read({}).isa);
+  CHECK(isa_of(folder.read({})) == widest_isa());
+  CHECK(folder.read({.sets = {"isa=avx2"}}).isa == Isa::kAvx2);
+  CHECK(isa_of(folder.read({.sets = {"isa=avx2"}})) == Isa::kAvx2);
+  CHECK(folder.read({.sets = {"isa=avx2"}}).launch_text != folder.read({}).launch_text);
+  const Launch wide = folder.read({.sets = {"isa=avx512"}});
+  if (widest_isa() == Isa::kAvx512) CHECK(isa_of(wide) == Isa::kAvx512);
+  else CHECK_THROWS_WITH(isa_of(wide), Catch::Contains("isa: this machine has no avx512; allowed: best, avx2"));
+  CHECK(folder.problems({.sets = {"isa=sse"}}) == "--set isa: is \"sse\", not one of avx2, avx512");
+}
+
 TEST_CASE("of the expectations exit codes are the launcher's, the others a process's") {
   const Folder folder;
   folder.add("x.yaml", std::string(kLaunch) +
@@ -274,7 +288,7 @@ TEST_CASE("includes are merged before the file itself, with arguments of their o
         "parts/sensors.yaml:1:11: ensonify: launch/9 is not a format known here; allowed: launch/1\n"
         "parts/sensors.yaml:2:1: bogus: is not a known key; known keys: after, clock, duration_s, ensonify, expect, "
         "inject, "
-        "processes, scenario, set, wiring");
+        "isa, processes, scenario, set, wiring");
 }
 
 TEST_CASE("mistakes in a launch file and its world are reported together") {

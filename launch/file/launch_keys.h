@@ -172,6 +172,7 @@ struct LaunchKeys {
   std::vector<ProcessSpec> processes;
   std::vector<ConnectionKeys> wiring;
   ClockSettings clock;
+  std::optional<Isa> isa;
   std::optional<double> duration_s;
   std::vector<InjectKeys> inject;
   ExpectKey expect;
@@ -186,6 +187,9 @@ struct LaunchKeys {
     visit("processes", "processes that run together, by names of your own", self.processes);
     visit("wiring", "PROCESS.PORT of an input to the topic that it takes", self.wiring);
     visit("clock", "pacing and supervision", self.clock);
+    visit("isa", "", or_word("best", one_of({{"avx2", Isa::kAvx2}, {"avx512", Isa::kAvx512}})),
+          "vector instructions that rays are traced with; best: the widest of the machine, whose last bits may differ",
+          self.isa);
     visit("duration_s", "s", in(1e-3, 1e7), "the run's end, sim time", self.duration_s);
     visit("inject", "faults at a sim time", self.inject);
     visit("expect", "", computed(any()), "list of what must hold for the run to succeed", self.expect);

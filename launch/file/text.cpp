@@ -42,6 +42,7 @@ std::string canonical_text(const Launch& launch) {
   }
   root.set("wiring", std::move(wiring));
   if (!launch.injections.empty()) root.set("inject", node_of(launch.injections));
+  if (launch.isa) root.set("isa", ConfigNode::text(name_of(*launch.isa)));
   if (launch.duration) {
     root.set("duration_ns", ConfigNode::text(std::to_string(launch.duration->count())));
   }

@@ -311,6 +311,7 @@ OverrideTargets sort_overrides(const Overrides& overrides, const ConfigNode& roo
                                std::vector<ConfigProblem>& problems) {
   std::vector<std::string> known = kScenarioSections;
   known.emplace_back("clock");
+  known.emplace_back("isa");
   const ConfigNode* processes = root.find("processes");
   if (processes != nullptr) {
     for (const auto& entry : processes->entries) {
@@ -322,7 +323,9 @@ OverrideTargets sort_overrides(const Overrides& overrides, const ConfigNode& roo
     const std::size_t dot = path.find('.');
     const std::string first = path.substr(0, dot);
     const std::string rest = dot == std::string::npos ? "" : path.substr(dot + 1);
-    if (is_scenario_section(first)) {
+    if (path == "isa") {
+      targets.launch.emplace_back(path, value);
+    } else if (is_scenario_section(first)) {
       targets.scenario.emplace_back(path, value);
     } else if (rest.empty() && std::find(known.begin(), known.end(), first) != known.end()) {
       problems.push_back({value.place, "set." + path, "names no key of " + first + "; allowed: " + first + ".KEY"});

@@ -26,6 +26,7 @@ struct OverrideTargets {
   std::map<std::string, Overrides> processes;  // paths within the process's parameters
   Overrides scenario;                          // paths from the scenario's root
   Overrides clock;
+  Overrides launch;  // of the launch file itself
 };
 
 /// Overrides of the file's own `set:`, then of --set, in the order in which they count.

@@ -75,6 +75,7 @@ void find_unwritable(const Launch& launch, const ConfigNode& node, const std::st
 std::string written_launch(const Launch& launch, const std::string& scenario, const WrittenConfig& config_of) {
   LaunchKeys keys;
   keys.clock = launch.clock;
+  keys.isa = launch.isa;
   keys.after.steps = launch.after;
   keys.inject = keys_of(launch.injections);
   if (launch.duration) keys.duration_s = seconds(*launch.duration);

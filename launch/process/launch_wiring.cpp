@@ -50,6 +50,7 @@ std::map<std::string, std::string> facts_of(const Launch& launch) {
                                            {"scenario", launch.scenario.text},
                                            {"start_utc", launch.scenario.header.start_utc},
                                            {"version", kVersion},
+                                           {"isa", name_of(isa_of(launch))},
                                            {"seed", std::to_string(launch.scenario.header.seed)}};
   if (!launch.injections.empty()) facts[kInjectFact] = fact_of(launch.injections);
   return facts;

@@ -112,6 +112,7 @@ int run_process(const char* component, const NodeFactory& factory, ParameterList
     print_configuration(list(&process), process);
     return kExitOk;
   }
+  use_isa(isa_of(launch));
   const bool profiled = std::getenv(kProfileVariable) != nullptr;
   const OpenSession open = [&](const EpochOptions& epoch) {
     if (!epoch.out.empty()) launch = read_launch(options_of(epoch, options.launch));
@@ -133,6 +134,7 @@ int run_process(const char* component, const NodeFactory& factory, ParameterList
 
 /// All nodes of a launch on one bus, wired.
 LocalBus bus_of(const Launch& launch, const std::map<std::string, NodeFactory>& components) {
+  use_isa(isa_of(launch));
   LocalBus bus;
   for (const ProcessSpec& process : launch.processes) {
     if (process.observer) continue;

@@ -11,8 +11,8 @@
 
 namespace ensonify::echo {
 
-/// From cells to numbers: a table with open addressing, for cells that are near each other. A look-up misses the cache;
-/// so ask for the slots of many cells first, have them fetched, and look then.
+/// From cells to numbers: a table with open addressing. A look-up misses the cache: so ask for the slots of many
+/// cells first, have them fetched, and look then.
 class CellTable {
  public:
   /// Forgets all cells. Nothing is written for that, but every 255th time.
@@ -27,8 +27,15 @@ class CellTable {
     while (2 * (taken_ + more) > size_) grow(cell_of);
   }
 
-  /// Where the search for a cell begins, until the next make_room().
-  std::size_t slot(std::uint64_t cell) const { return slot_of(cell, size_); }
+  /// Where the search for a cell begins, until the next make_room(). Of a layer of a patch of 4 x 4 cells, whichever
+  /// way it stands, all begin in different slots, two lines of the cache.
+  std::size_t slot(std::uint64_t cell) const {
+    constexpr std::uint64_t kPatches =
+        ~(std::uint64_t{3} | (std::uint64_t{3} << kCellBits) | (std::uint64_t{3} << (2 * kCellBits)));
+    const std::uint64_t up = cell >> (2 * kCellBits);
+    const std::uint64_t in_patch = ((cell + up) & 3) | (((cell >> kCellBits) + up) & 3) << 2;
+    return (((spread(cell & kPatches) >> 36) * kPatch) & (size_ - 1)) | in_patch;
+  }
   void fetch(std::size_t slot) const { __builtin_prefetch(&at(slot), 1); }
 
   /// The number of a cell whose search begins there; `next` becomes its number if it has none.
@@ -55,20 +62,10 @@ class CellTable {
   Slot& at(std::size_t slot) { return lines_[slot / kLine][slot % kLine]; }
   const Slot& at(std::size_t slot) const { return lines_[slot / kLine][slot % kLine]; }
 
-  static std::uint64_t spread(std::uint64_t cell) {
-    return cell * 0x9e3779b97f4a7c15ULL;
-  }  // the top bits are well mixed
+  /// The top bits are well mixed.
+  static std::uint64_t spread(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15ULL; }
   std::uint32_t mark_of(std::uint64_t cell) const {
     return static_cast<std::uint32_t>(spread(cell) >> 40) << 8 | round_;
-  }
-  /// Of a layer of a patch of 4 x 4 cells, whichever way it stands, all begin in different slots, two lines of the
-  /// cache.
-  static std::size_t slot_of(std::uint64_t cell, std::size_t size) {
-    constexpr std::uint64_t kPatches =
-        ~(std::uint64_t{3} | (std::uint64_t{3} << kCellBits) | (std::uint64_t{3} << (2 * kCellBits)));
-    const std::uint64_t up = cell >> (2 * kCellBits);
-    const std::uint64_t in_patch = ((cell + up) & 3) | (((cell >> kCellBits) + up) & 3) << 2;
-    return (((spread(cell & kPatches) >> 36) * kPatch) & (size - 1)) | in_patch;
   }
   /// The next slot after so many: first all of a line of the cache, which is here already, then the next line.
   std::size_t after(std::size_t slot, std::size_t tries) const {

@@ -58,26 +58,26 @@ void SpeckleCells::merge(const CellParts& parts, std::span<const std::uint32_t> 
   sum.others_.clear();
   std::size_t made = 0;
   std::array<std::size_t, kCellRun> slots;
-  for (std::size_t first = 0; first < parts.size(); first += kCellRun) {
-    const std::size_t end = std::min(parts.size(), first + kCellRun);
+  for (std::size_t begin = 0; begin < parts.size(); begin += kCellRun) {
+    const std::size_t end = std::min(parts.size(), begin + kCellRun);
     sum.first_of_.make_room(kCellRun, cell_of);
-    for (std::size_t ray = first; ray < end; ++ray) {
-      slots[ray - first] = sum.first_of_.slot(parts.cell[ray]);
-      sum.first_of_.fetch(slots[ray - first]);
+    for (std::size_t ray = begin; ray < end; ++ray) {
+      slots[ray - begin] = sum.first_of_.slot(parts.cell[ray]);
+      sum.first_of_.fetch(slots[ray - begin]);
     }
-    for (std::size_t ray = first; ray < end; ++ray) {
+    for (std::size_t ray = begin; ray < end; ++ray) {
       const std::uint64_t cell = parts.cell[ray];
       if (cell == kNoCell) continue;
       const auto next = static_cast<std::uint32_t>(sums.size());
-      const std::uint32_t first_of_cell = sum.first_of_.number(cell, slots[ray - first], next, cell_of);
-      std::uint32_t number = first_of_cell;
+      const std::uint32_t first = sum.first_of_.number(cell, slots[ray - begin], next, cell_of);
+      std::uint32_t number = first;
       if (number != next) {
         std::uint32_t last = number;
         while (number != kNone && sums[number].contributor != contributors[ray]) number = sums[last = number].next;
         if (number == kNone) {
-          if (last == first_of_cell) sum.shared_.push_back(first_of_cell);
+          if (last == first) sum.shared_.push_back(first);
           sums[last].next = number = next;
-          sum.others_.push_back({next, first_of_cell});
+          sum.others_.push_back({next, first});
         }
       }
       if (number == next) {

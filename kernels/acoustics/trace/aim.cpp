@@ -100,6 +100,9 @@ void directions_to(const ToHead& to_head, const Edges& edges, const Column& firs
 constexpr double kRaysToFacet = 16.0, kCutByEdge = 4.0;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
+/// From -pi to pi.
+double within_turn(double angle_rad) { return angle_rad - kTurn_rad * std::nearbyint(angle_rad * (1.0 / kTurn_rad)); }
+
 std::size_t cell_of(const std::vector<double>& edges, double at) {
   return static_cast<std::size_t>(std::upper_bound(edges.begin() + 1, edges.end() - 1, at) - edges.begin()) - 1;
 }
@@ -164,8 +167,7 @@ std::array<double, 2> RayDistribution::coordinates_of(const Probes& probes, cons
   const double along = forward ? direction_head.x() : direction_head.z(),
                zero = forward ? direction_head.z() : direction_head.x();
   const double middle_rad = 0.5 * (probes.angle_edges_rad.front() + probes.angle_edges_rad.back());
-  return {along / direction_head.norm(),
-          middle_rad + std::remainder(std::atan2(direction_head.y(), zero) - middle_rad, kTurn_rad)};
+  return {along / direction_head.norm(), middle_rad + within_turn(std::atan2(direction_head.y(), zero) - middle_rad)};
 }
 
 bool RayDistribution::holds(const Probes& probes, const Vec3& direction_head) const {
@@ -187,7 +189,7 @@ double RayDistribution::rays_to_facet(const Probes& probes, const std::array<Vec
     r[c] = corners_head_m[c].norm();
     const auto [sine, angle_rad] = coordinates_of(probes, corners_head_m[c]);
     u[c] = sine;
-    phi[c] = c == 0 ? angle_rad : phi[0] + std::remainder(angle_rad - phi[0], kTurn_rad);
+    phi[c] = c == 0 ? angle_rad : phi[0] + within_turn(angle_rad - phi[0]);
   }
   const auto [low_u, high_u] = std::ranges::minmax(u);
   const auto [low_phi, high_phi] = std::ranges::minmax(phi);

@@ -1,5 +1,6 @@
 #include "kernels/acoustics/trace/bent_packet.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/water/refraction/path.h"
@@ -113,6 +114,12 @@ bool BentPacket::cross(const Source& source, Packet& packet) {
 }
 
 void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) const {
+  std::size_t hit = 0;
+  for (std::size_t lane = 0; lane < kPacket; ++lane) {
+    hit += packet.part_hit[lane] != nullptr ? 1U : 0U;
+    if (on_[lane] != 0 && packet.part_hit[lane] == nullptr && layer_ == 0) hits.set(first_ + lane, Hit{});
+  }
+  if (hit == 0) return;
   const Layers::Layer layer = source.layers[layer_];
   const RTCRay16& ray = packet.rays.ray;
   const RTCHit16& facet = packet.rays.hit;
@@ -131,11 +138,11 @@ void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) co
 
     const double curvature = at_.invariant_spm[lane] * layer.gradient_per_s, turn = curvature * along_m,
                  t2 = turn * turn;
-    const double c = 1.0 - t2 * (0.5 - t2 / 24), s = turn * (1.0 - t2 * (1.0 / 6 - t2 / 120));
+    const double c = 1.0 - t2 * (0.5 - t2 * (1.0 / 24)), s = turn * (1.0 - t2 * (1.0 / 6 - t2 * (1.0 / 120)));
     const double end_sine = at_.sine[lane] * c - at_.cosine[lane] * s;
     const double end_cosine = at_.cosine[lane] * c + at_.sine[lane] * s;
     const double scale = mean_scale(at_.sine[lane] - end_sine, at_.cosine[lane] - end_cosine);
-    const double chord_m = along_m * (1.0 - t2 / 24);
+    const double chord_m = along_m * (1.0 - t2 * (1.0 / 24));
     const double end_mps = layer.top_mps + layer.gradient_per_s * chord_m * scale * (at_.sine[lane] + end_sine);
     const Arc arc(chord_m, scale, curvature, layer.gradient_per_s, layer.top_mps, end_mps);
     const double whole_m = at_.length_m[lane] + arc.length_m;
@@ -161,26 +168,25 @@ void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) co
     az[lane] = static_cast<float>(-end_sine);
     grazing[lane] = static_cast<float>(sine < 1.0 ? sine : 1.0);
   }
-  for (std::size_t lane = 0; lane < kPacket; ++lane) {
-    if (on_[lane] == 0) continue;
-    const Part* const part = packet.part_hit[lane];
-    const std::size_t row = first_ + lane;
-    if (part == nullptr) {
-      if (layer_ == 0) hits.set(row, Hit{});
-      continue;
+  const auto put = [&](const auto& from, auto& column) {
+    if (hit == kPacket) {
+      std::copy_n(from.data(), kPacket, column.data() + first_);
+      return;
     }
-    hits.position_enu_m.x[row] = x_m[lane], hits.position_enu_m.y[row] = y_m[lane],
-    hits.position_enu_m.z[row] = z_m[lane];
-    hits.normal_enu.x[row] = nx[lane], hits.normal_enu.y[row] = ny[lane], hits.normal_enu.z[row] = nz[lane];
-    hits.arrival_enu.x[row] = ax[lane], hits.arrival_enu.y[row] = ay[lane], hits.arrival_enu.z[row] = az[lane];
-    hits.range_m[row] = range_m[lane];
-    hits.travel_time_s[row] = time_s[lane];
-    hits.path_length_m[row] = length_m[lane];
-    hits.tube_m2[row] = tube_m2[lane];
-    hits.sin_grazing[row] = grazing[lane];
-    hits.facet_m[row] = part->facet_m();
-    hits.tile[row] = part->number();
-    hits.contributor[row] = part->contributor_at({x_m[lane], y_m[lane]});
+    for (std::size_t lane = 0; lane < kPacket; ++lane)
+      if (packet.part_hit[lane] != nullptr) column[first_ + lane] = from[lane];
+  };
+  put(x_m, hits.position_enu_m.x), put(y_m, hits.position_enu_m.y), put(z_m, hits.position_enu_m.z);
+  put(nx, hits.normal_enu.x), put(ny, hits.normal_enu.y), put(nz, hits.normal_enu.z);
+  put(ax, hits.arrival_enu.x), put(ay, hits.arrival_enu.y), put(az, hits.arrival_enu.z);
+  put(range_m, hits.range_m), put(time_s, hits.travel_time_s), put(length_m, hits.path_length_m);
+  put(tube_m2, hits.tube_m2), put(grazing, hits.sin_grazing);
+  for (std::size_t lane = 0; lane < kPacket; ++lane) {
+    const Part* const part = packet.part_hit[lane];
+    if (part == nullptr) continue;
+    hits.facet_m[first_ + lane] = part->facet_m();
+    hits.tile[first_ + lane] = part->number();
+    hits.contributor[first_ + lane] = part->contributor_at({x_m[lane], y_m[lane]});
   }
 }
 

@@ -1,3 +1,5 @@
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,7 +15,8 @@ namespace {
 using frames::Vec2;
 using frames::Vec3;
 
-constexpr std::size_t kMostToFacets = 4;            // of all rays one in so many
+constexpr std::size_t kMostToFacets = 4;  // of all rays one in so many
+constexpr std::size_t kObjectsPerTask = 8;
 constexpr std::uint64_t kPlaces = 0x6661636574ULL;  // of the stream
 
 std::uint32_t facet_number(const terrain::Tile& tile, std::int32_t column, std::int32_t row, bool upper) {
@@ -52,39 +55,57 @@ const FacetTargets::Tile* tile_of(const FacetTargets& targets, std::uint32_t til
 }  // namespace
 
 void RayDistribution::gather_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
-                                    std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) const {
-  facets.clear();
-  for (std::size_t o = 0; o < objects.size(); ++o) {
-    const Object& object = objects[o];
-    const double half_m = 0.5 * object.box_enu_m.diagonal().norm();
-    const Vec3 off = view.head.enu_from_head.conjugate() * (object.box_enu_m.center() - view.head.position_enu_m);
-    const double away_m = off.norm(),
-                 radius_m = half_m + (view.refracted != nullptr ? kMostRefraction_rad * away_m : 0.0);
-    if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !touches(probes, off, radius_m)) continue;
-    const auto towards = Towards::make(view, object.box_enu_m);
-    if (!towards) continue;
-    take(object, targets);
-    const terrain::Tile& tile = *object.tile;
-    for (std::int32_t row = object.first_row; row < object.end_row; ++row) {
-      for (std::int32_t column = object.first_column; column < object.end_column; ++column) {
-        const Vec3 sw = tile.position_enu_m(column, row), se = tile.position_enu_m(column + 1, row),
-                   nw = tile.position_enu_m(column, row + 1), ne = tile.position_enu_m(column + 1, row + 1);
-        if (!std::isfinite(sw.z() + se.z() + nw.z() + ne.z())) continue;
-        for (const bool upper : {false, true}) {
-          const std::array<Vec3, 3> corners{upper ? ne : sw, nw, se};
-          const double wanted =
-              rays_to_facet(probes, {(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
-          if (!(wanted > 0.0)) continue;
-          const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
-          facets.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
-                            corners,
-                            o,
-                            wanted});
-        }
+                                    FacetMemory& memory, FacetTargets& targets) const {
+  const std::size_t tasks = (objects.size() + kObjectsPerTask - 1) / kObjectsPerTask;
+  if (memory.found.size() < tasks) memory.found.resize(tasks);
+  tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+    FacetMemory::Found& found = memory.found[task];
+    found.facets.clear();
+    found.objects.clear();
+    const std::size_t end = std::min(objects.size(), (task + 1) * kObjectsPerTask);
+    for (std::size_t o = task * kObjectsPerTask; o < end; ++o) {
+      if (add_facets(probes, objects[o], o, view, found.facets)) found.objects.push_back(o);
+    }
+  });
+  memory.facets.clear();
+  for (std::size_t task = 0; task < tasks; ++task) {  // in their order, however many threads there were
+    const FacetMemory::Found& found = memory.found[task];
+    for (const std::size_t o : found.objects) take(objects[o], targets);
+    memory.facets.insert(memory.facets.end(), found.facets.begin(), found.facets.end());
+  }
+  std::ranges::sort(targets.tiles, {}, &FacetTargets::Tile::number);
+}
+
+/// Those of one object that need rays; false where it is left to the other rays.
+bool RayDistribution::add_facets(const Probes& probes, const Object& object, std::size_t number, const FacetView& view,
+                                 std::vector<FacetMemory::Facet>& facets) const {
+  const double half_m = 0.5 * object.box_enu_m.diagonal().norm();
+  const Vec3 off = view.head.enu_from_head.conjugate() * (object.box_enu_m.center() - view.head.position_enu_m);
+  const double away_m = off.norm(),
+               radius_m = half_m + (view.refracted != nullptr ? kMostRefraction_rad * away_m : 0.0);
+  if (away_m - half_m > view.max_range_m || half_m > kWidest * away_m || !touches(probes, off, radius_m)) return false;
+  const auto towards = Towards::make(view, object.box_enu_m);
+  if (!towards) return false;
+  const terrain::Tile& tile = *object.tile;
+  for (std::int32_t row = object.first_row; row < object.end_row; ++row) {
+    for (std::int32_t column = object.first_column; column < object.end_column; ++column) {
+      const Vec3 sw = tile.position_enu_m(column, row), se = tile.position_enu_m(column + 1, row),
+                 nw = tile.position_enu_m(column, row + 1), ne = tile.position_enu_m(column + 1, row + 1);
+      if (!std::isfinite(sw.z() + se.z() + nw.z() + ne.z())) continue;
+      for (const bool upper : {false, true}) {
+        const std::array<Vec3, 3> corners{upper ? ne : sw, nw, se};
+        const double wanted =
+            rays_to_facet(probes, {(*towards)(corners[0]), (*towards)(corners[1]), (*towards)(corners[2])});
+        if (!(wanted > 0.0)) continue;
+        const double area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+        facets.push_back({{object.number, facet_number(tile, column, row, upper), static_cast<float>(area_m2)},
+                          corners,
+                          number,
+                          wanted});
       }
     }
   }
-  std::ranges::sort(targets.tiles, {}, &FacetTargets::Tile::number);
+  return true;
 }
 
 void RayDistribution::aim_at_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
@@ -93,7 +114,7 @@ void RayDistribution::aim_at_facets(const Probes& probes, std::span<const Object
   targets.facets.clear();
   targets.tiles.clear();
   targets.cells.clear();
-  gather_facets(probes, objects, view, memory.facets, targets);
+  gather_facets(probes, objects, view, memory, targets);
   double sum = 0.0;
   for (const FacetMemory::Facet& facet : memory.facets) sum += std::max(1.0, facet.wanted);
   const auto most = settings_.most_rays / kMostToFacets;  // whole rays

@@ -10,9 +10,11 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "kernels/acoustics/trace/contributors.h"
+#include "kernels/base/isa/isa.h"
 #include "kernels/mesh/lod/cover.h"
 
 namespace ensonify::trace {
@@ -57,8 +59,9 @@ float facet_of(const Shown& shown) {
 
 Device new_device() {
   // Embree's memory of a small scene in few pieces.
-  Device device(rtcNewDevice("isa=avx2,set_affinity=0,alloc_thread_block_size=8192"));
-  if (!device) throw std::runtime_error("Embree cannot start (it needs a processor with AVX2)");
+  const std::string isa = name_of(isa_in_use());
+  Device device(rtcNewDevice(("isa=" + isa + ",set_affinity=0,alloc_thread_block_size=8192").c_str()));
+  if (!device) throw std::runtime_error("Embree cannot start (it needs a processor with " + isa + ")");
   return device;
 }
 

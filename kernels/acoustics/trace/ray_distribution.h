@@ -77,6 +77,11 @@ struct FacetMemory {
   };
   Rays rays;
   std::vector<Facet> facets;
+  struct Found {  // by a task: facets, and the objects that they are of
+    std::vector<Facet> facets;
+    std::vector<std::size_t> objects;
+  };
+  std::vector<Found> found;
   struct Piece {
     std::uint32_t body;    // of those that are shown
     std::uint64_t number;  // among the body's
@@ -280,8 +285,10 @@ class RayDistribution {
   bool holds(const Probes& probes, const frames::Vec3& direction_head) const;
   /// Whether a ray may go to a ball; where it may not, objects cost nothing.
   bool touches(const Probes& probes, const frames::Vec3& middle_head_m, double radius_m) const;
-  void gather_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view,
-                     std::vector<FacetMemory::Facet>& facets, FacetTargets& targets) const;
+  void gather_facets(const Probes& probes, std::span<const Object> objects, const FacetView& view, FacetMemory& memory,
+                     FacetTargets& targets) const;
+  bool add_facets(const Probes& probes, const Object& object, std::size_t number, const FacetView& view,
+                  std::vector<FacetMemory::Facet>& facets) const;
   /// Rays to the facets of small objects.
   ///
   /// Rays that are spread over directions miss what is small or seen edge-on. So each facet has rays of its own, to

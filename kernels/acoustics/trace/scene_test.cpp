@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "kernels/base/isa/isa.h"
 #include "tests/support/fan.h"
 
 using namespace ensonify::trace;
@@ -210,4 +211,35 @@ TEST_CASE("a tile whose sizes do not fit is refused") {
   tile.columns = tile.rows = 3;
   Scene scene({0, 0});
   CHECK_THROWS_WITH(scene.insert({0, 0}, tile), "the number of heights is not columns x rows");
+}
+
+TEST_CASE("wider vector instructions change what rays hit by rounding alone") {
+  using ensonify::Isa;
+  if (ensonify::widest_isa() == Isa::kAvx2) {
+    WARN("skipped: this machine has no AVX-512");
+    return;
+  }
+  Rays rays;
+  Fan({.transmit_length_in_waves = 50.0, .half_swath_rad = 1.0, .along = 16, .across = 2000})
+      .fill({1, "rays"}, 0, rays);
+  const auto hits_with = [&](Isa isa) {
+    ensonify::use_isa(isa);
+    Scene scene({0, 0});
+    scene.insert({0, 0}, tile_of({.origin_enu_m = {-64, -64}, .spacing_m = 0.5, .cells = 256}, {0, 0}, bumpy));
+    Hits hits;
+    scene.adapted().trace(kLevel, rays, 100.0F, hits);
+    ensonify::use_isa(Isa::kAvx2);
+    return hits;
+  };
+  const Hits narrow = hits_with(Isa::kAvx2), wide = hits_with(Isa::kAvx512);
+  std::size_t hit = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    REQUIRE(wide.hit(i) == narrow.hit(i));
+    if (!narrow.hit(i)) continue;
+    ++hit;
+    // A ray within rounding of an edge may take the facet beyond it. Floats of 50 m are 4e-6 m apart.
+    REQUIRE_THAT(wide.range_m[i], WithinAbs(narrow.range_m[i], 2e-4));
+    REQUIRE((wide.position_enu_m[i] - narrow.position_enu_m[i]).norm() < 2e-4);
+  }
+  CHECK(hit > rays.size() / 2);
 }
