@@ -41,6 +41,7 @@ constexpr Decision kDecisions[] = {
     // Who steers, and what is planned.
     {"sonar_settings/1", true},
     {"guidance/1", true},
+    {"actuators/1", true},
     {"helm/1", true},
     {"mission_state/1", true},
     {"next_line/1", true},

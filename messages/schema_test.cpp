@@ -45,7 +45,7 @@ TEST_CASE("type names carry a major version and do not collide by hash") {
 }
 
 TEST_CASE("every field says what it is, and its name ends in its unit") {
-  const std::regex suffix("_(ns|s|m|mps|rad|radps|deg|hz|db|dbpm|upa|upa2|mps2|radps2|m2|m2ps2|rad2|degc|psu)$");
+  const std::regex suffix("_(ns|s|m|mps|rad|radps|rps|deg|hz|db|dbpm|upa|upa2|mps2|radps2|m2|m2ps2|rad2|degc|psu)$");
   for (const TypeInfo& type : message_types()) {
     CHECK_FALSE(type.about.empty());
     for (const FieldInfo& field : type.fields) {

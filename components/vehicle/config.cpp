@@ -76,6 +76,11 @@ VehicleConfig VehicleConfig::read(ConfigReader& from, const World& world, const 
       from.add(error);
     }
   }
+  for (const PilotKeys& pilot : config.steered_by) {
+    if (pilot.by == PilotKeys::By::kActuators && vehicle.dynamics_file.empty())
+      from.problem("steered_by." + pilot.name + ".by",
+                   "actuators are of a vehicle moved by forces; " + vehicle.name + " has no `dynamics` file");
+  }
   config.start = vehicle.start;
   config.plan = MissionPlan::of(world, vehicle);
   const Vehicle* follows = follower(world);

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <variant>
 
+#include "components/errors/assert.h"
 #include "components/truth/pose_message.h"
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 #include "components/vehicle/kinematic/kinematic.h"
@@ -18,6 +21,7 @@ std::unique_ptr<Dynamics> make_dynamics(const VehicleConfig& config, const motio
 
 VehicleModel::VehicleModel(const VehicleConfig& config, const motion::State& start, SimTime now)
     : dynamics_(make_dynamics(config, start, now)),
+      by_forces_(dynamic_cast<HydrodynamicDynamics*>(dynamics_.get())),
       fastest_mps_(config.fastest_mps),
       floats_(config.water.floats.has_value()),
       waves_(config.waves),
@@ -30,6 +34,18 @@ VehicleModel::VehicleModel(const VehicleConfig& config, const motion::State& sta
 void VehicleModel::advance(SimTime now) {
   dynamics_->advance(now);
   now_ = now;
+}
+
+void VehicleModel::obey(const Order& order) {
+  if (const auto* guidance = std::get_if<msg::Guidance>(&order)) return command(*guidance);
+  ENSONIFY_ASSERT(by_forces_ != nullptr, "orders of actuators go to a vehicle moved by forces");
+  if (const auto* actuators = std::get_if<msg::Actuators>(&order)) {
+    Eigen::VectorXd orders(static_cast<Eigen::Index>(actuators->propeller_rps.size() + actuators->fin_rad.size()));
+    std::copy_n(actuators->fin_rad.data(), actuators->fin_rad.size(),
+                std::copy_n(actuators->propeller_rps.data(), actuators->propeller_rps.size(), orders.data()));
+    return by_forces_->actuate(std::move(orders));
+  }
+  by_forces_->stop();
 }
 
 void VehicleModel::command(const msg::Guidance& guidance) {

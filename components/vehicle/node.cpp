@@ -30,20 +30,44 @@ void VehicleNode::declare_command() {
   if (config_.steered_by.empty()) {
     ports_.in<msg::Guidance>("command", [this](const msg::Guidance& guidance) { take("", guidance); },
                              {.delay = kReaction, .optional = true});
+    if (config_.hydrodynamics) {
+      ports_.in<msg::Actuators>("actuators", [this](const msg::Actuators& order) { take("", order); },
+                                {.delay = kReaction, .optional = true});
+    }
     return;
   }
-  std::vector<std::string> topics;
-  for (const PilotKeys& pilot : config_.steered_by) topics.push_back(pilot.name + "/command");
-  ports_.in_topics<msg::Guidance>(
-      "command", topics, [this](const std::string& pilot, const msg::Guidance& guidance) { take(pilot, guidance); },
-      {.delay = kReaction});
+  std::vector<std::string> commands, actuators;
+  for (const PilotKeys& pilot : config_.steered_by) {
+    if (pilot.by == PilotKeys::By::kCommand) commands.push_back(pilot.name + "/command");
+    else actuators.push_back(pilot.name + "/actuators");
+  }
+  if (!commands.empty()) {
+    ports_.in_topics<msg::Guidance>(
+        "command", commands, [this](const std::string& pilot, const msg::Guidance& guidance) { take(pilot, guidance); },
+        {.delay = kReaction});
+  }
+  if (!actuators.empty()) {
+    ports_.in_topics<msg::Actuators>(
+        "actuators", actuators, [this](const std::string& pilot, const msg::Actuators& order) { take(pilot, order); },
+        {.delay = kReaction});
+  }
   // At most one a pose, when it changes hands.
   helms_ = ports_.out<msg::Helm>("helm", {.rate = Rate{config_.pose_rate_hz, 1}});
 }
 
 void VehicleNode::take(const std::string& pilot, const msg::Guidance& guidance) {
   const std::string refusal = refusal_of(guidance, config_.name);
-  if (refusal.empty()) return pilots_.take(ports_.now(), pilot, guidance);
+  if (!refusal.empty()) return refuse(pilot, refusal);
+  pilots_.take(ports_.now(), pilot, guidance);
+}
+
+void VehicleNode::take(const std::string& pilot, const msg::Actuators& order) {
+  const std::string refusal = refusal_of(order, config_.name, config_.hydrodynamics->body);
+  if (!refusal.empty()) return refuse(pilot, refusal);
+  pilots_.take(ports_.now(), pilot, order);
+}
+
+void VehicleNode::refuse(const std::string& pilot, const std::string& refusal) {
   if (refused_++ == 0) log::event(ports_, "refused", "what={}{}", refusal, pilot.empty() ? "" : " pilot=" + pilot);
   ports_.count("commands_" + refusal);
   ports_.health("degraded", (pilot.empty() ? "a command" : "a command of " + pilot) + " was refused: " + refusal);
@@ -57,7 +81,7 @@ SimTime VehicleNode::step(SimTime now) {
   const auto command = pilots_.take_command();
   if (vehicle_) {
     vehicle_->advance(now);
-    if (command) vehicle_->command(*command);
+    if (command) vehicle_->obey(*command);
     poses_.send(vehicle_->pose());
   }
   if (config_.followed && !finished_ && seconds(now) >= config_.followed->end_s()) {

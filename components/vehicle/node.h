@@ -7,6 +7,7 @@
 #include "components/runtime/ports.h"
 #include "components/vehicle/model.h"
 #include "components/vehicle/pilots.h"
+#include "messages/actuators.h"
 #include "messages/motion.h"
 #include "messages/terrain.h"
 
@@ -24,6 +25,8 @@ class VehicleNode {
  private:
   void declare_command();
   void take(const std::string& pilot, const msg::Guidance& guidance);
+  void take(const std::string& pilot, const msg::Actuators& order);
+  void refuse(const std::string& pilot, const std::string& refusal);
   void report_helm(SimTime now);
 
   VehicleConfig config_;

@@ -26,6 +26,26 @@ std::string refusal_of(const msg::Guidance& guidance, const std::string& vehicle
   return in_range ? "" : "out_of_range";
 }
 
+std::string refusal_of(const msg::Actuators& order, const std::string& vehicle,
+                       const motion::HydrodynamicParameters& body) {
+  if (!order.vehicle.empty() && order.vehicle != vehicle) return "for_another_vehicle";
+  if (order.hand_back) return "";
+  if (order.propeller_rps.size() != body.propellers.size() || order.fin_rad.size() != body.fins.size())
+    return "of_other_actuators";
+  const auto each = [&](auto&& holds) {
+    bool all = true;
+    for (std::size_t i = 0; i < body.propellers.size(); ++i)
+      all = all && holds(order.propeller_rps.data()[i], body.propellers[i].fastest_rps);
+    for (std::size_t i = 0; i < body.fins.size(); ++i)
+      all = all && holds(order.fin_rad.data()[i], body.fins[i].largest_rad);
+    return all;
+  };
+  if (!each([](double value, double) { return std::isfinite(value); })) return "not_finite";
+  constexpr double kRounding = 1e-6;  // of a limit that the agent has as a number of seven digits
+  const bool in_range = each([](double value, double most) { return std::abs(value) <= most * (1.0 + kRounding); });
+  return in_range ? "" : "out_of_range";
+}
+
 bool Pilots::Pilot::silent(SimTime now) const {
   return !heard_at || (keys.timeout_s && seconds(now - *heard_at) >= *keys.timeout_s);
 }
@@ -39,7 +59,7 @@ Pilots::Pilots(const std::vector<PilotKeys>& pilots) {
   for (const PilotKeys& keys : pilots) pilots_.push_back({.keys = keys});
 }
 
-void Pilots::take(SimTime now, const std::string& name, const msg::Guidance& guidance) {
+void Pilots::take(SimTime now, const std::string& name, Order order, bool hand_back) {
   const auto pilot = std::ranges::find(pilots_, name, [](const Pilot& one) { return one.keys.name; });
   if (pilot == pilots_.end()) return;
   if (pilot->silent(now)) {
@@ -47,8 +67,8 @@ void Pilots::take(SimTime now, const std::string& name, const msg::Guidance& gui
     pilot->heard_since = now;
   }
   pilot->heard_at = now;
-  pilot->handed_back = guidance.hand_back;
-  pilot->newest = guidance;
+  pilot->handed_back = hand_back;
+  pilot->newest = std::move(order);
 }
 
 const Pilots::Pilot* Pilots::first(SimTime now) const {
@@ -71,15 +91,18 @@ bool Pilots::update(SimTime now) {
   return true;
 }
 
-std::optional<msg::Guidance> Pilots::take_command() {
-  std::optional<msg::Guidance> command;
+std::optional<Order> Pilots::take_command() {
+  std::optional<Order> command;
   for (Pilot& pilot : pilots_) {
-    std::optional<msg::Guidance> newest = std::exchange(pilot.newest, std::nullopt);
+    std::optional<Order> newest = std::exchange(pilot.newest, std::nullopt);
     if (pilot.keys.name == steered_by_) command = newest;
   }
   if (std::exchange(to_stop_, false) && obeyed_) {
-    command = obeyed_;
-    command->speed_mps = 0.0;
+    command = Stop{};
+    if (auto* guidance = std::get_if<msg::Guidance>(&*obeyed_)) {
+      guidance->speed_mps = 0.0;
+      command = *guidance;
+    }
   }
   if (command) obeyed_ = command;
   return command;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "components/runtime/testing/node_under_test.h"
 #include "components/vehicle/node.h"
@@ -15,6 +17,16 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 msg::Guidance order(double speed_mps, bool hand_back = false) { return {0, 0.0, speed_mps, kNaN, "", hand_back}; }
+
+double speed_mps(const std::optional<Order>& order) { return std::get<msg::Guidance>(order.value()).speed_mps; }
+
+msg::Actuators actuators(std::vector<double> propeller_rps, std::vector<double> fin_rad, bool hand_back = false) {
+  msg::Actuators order;
+  order.propeller_rps = msg::Array<double>::of(std::move(propeller_rps));
+  order.fin_rad = msg::Array<double>::of(std::move(fin_rad));
+  order.hand_back = hand_back;
+  return order;
+}
 
 /// An agent that is given up after 2 s, before an autopilot.
 std::vector<PilotKeys> agent_and_pilot(bool returns = true) { return {{"agent", 2.0, returns}, {"pilot", {}, true}}; }
@@ -70,13 +82,13 @@ TEST_CASE("a pilot hands the vehicle back, and takes it with its next order") {
   pilots.take(0_s, "pilot", order(1.0));
   pilots.take(0_s, "agent", order(2.0));
   CHECK(pilots.update(0_s));
-  CHECK(pilots.take_command()->speed_mps == 2.0);
+  CHECK(speed_mps(pilots.take_command()) == 2.0);
   pilots.take(1_s, "pilot", order(1.0));
   pilots.take(1_s, "agent", order(2.0, true));
   CHECK(pilots.update(1_s));
   CHECK(pilots.steered_by() == "pilot");
   CHECK(pilots.why() == "hand_back");
-  CHECK(pilots.take_command()->speed_mps == 1.0);
+  CHECK(speed_mps(pilots.take_command()) == 1.0);
   pilots.take(1_s + 100_ms, "agent", order(2.0));
   CHECK(pilots.update(1_s + 100_ms));
   CHECK(pilots.steered_by() == "agent");
@@ -91,7 +103,9 @@ TEST_CASE("when nobody steers any more the vehicle stops on its heading") {
   CHECK(pilots.take_command());
   CHECK(pilots.update(2_s));
   CHECK(pilots.steered_by().empty());
-  const auto stop = pilots.take_command();
+  const auto order = pilots.take_command();
+  REQUIRE(order);
+  const auto* stop = std::get_if<msg::Guidance>(&*order);
   REQUIRE(stop);
   CHECK(stop->speed_mps == 0.0);
   CHECK(stop->heading_grid_rad == 0.7);
@@ -111,6 +125,35 @@ TEST_CASE("what cannot be meant is refused") {
        {msg::Guidance{0, 90.0, 1.0}, {0, 0.0, -0.1}, {0, 0.0, 101.0}, {0, 0.0, 1.0, -0.1}, {0, 0.0, 1.0, 11'001.0}}) {
     CHECK(refusal_of(wrong, "auv") == "out_of_range");
   }
+}
+
+TEST_CASE("orders of actuators are refused that are no numbers, beyond what they can, or of others") {
+  motion::HydrodynamicParameters body;
+  body.propellers.resize(1);
+  body.propellers[0].fastest_rps = 25.0;
+  body.fins.resize(2);
+  for (motion::Fin& fin : body.fins) fin.largest_rad = 0.25;
+  CHECK(refusal_of(actuators({-25.0}, {0.25, -0.25}), "auv", body).empty());
+  CHECK(refusal_of(actuators({}, {}, true), "auv", body).empty());
+  CHECK(refusal_of(actuators({kNaN}, {0.0, 0.0}), "auv", body) == "not_finite");
+  CHECK(refusal_of(actuators({1.0}, {0.0, -std::numeric_limits<double>::infinity()}), "auv", body) == "not_finite");
+  CHECK(refusal_of(actuators({25.1}, {0.0, 0.0}), "auv", body) == "out_of_range");
+  CHECK(refusal_of(actuators({1.0}, {0.0, 0.26}), "auv", body) == "out_of_range");
+  CHECK(refusal_of(actuators({1.0}, {0.0}), "auv", body) == "of_other_actuators");
+  CHECK(refusal_of(actuators({1.0, 1.0}, {0.0, 0.0}), "auv", body) == "of_other_actuators");
+  msg::Actuators of_another = actuators({1.0}, {0.0, 0.0});
+  of_another.vehicle = "boat";
+  CHECK(refusal_of(of_another, "auv", body) == "for_another_vehicle");
+}
+
+TEST_CASE("when nobody orders its actuators any more the vehicle is to stop") {
+  Pilots pilots({{"agent", 1.0, true, PilotKeys::By::kActuators}});
+  pilots.take(1_s, "agent", actuators({5.0}, {0.1}));
+  pilots.update(1_s);
+  CHECK(std::get<msg::Actuators>(pilots.take_command().value()).fin_rad.data()[0] == 0.1);
+  CHECK(pilots.update(2_s));
+  CHECK(std::holds_alternative<Stop>(pilots.take_command().value()));
+  CHECK_FALSE(pilots.take_command());
 }
 
 TEST_CASE("a vehicle says who steers it, each second and when that changes, and counts what it refuses") {

@@ -9,6 +9,7 @@ import numpy as np
 from ensonify.typed import Message, Struct, array, fixed, list_of
 
 __all__ = [
+    "Actuators",
     "Pace",
     "ClockHealth",
     "ConsoleTopic",
@@ -89,6 +90,25 @@ __all__ = [
     "Chart",
     "View",
 ]
+
+
+@dataclass(eq=False)
+class Actuators(Message):
+    """What a pilot orders of the propellers and fins of a vehicle that is moved by forces, past its own helm.
+
+    stamp_ns [ns]: time of the order, sim time
+    propeller_rps [rev/s]: revolutions of each propeller, ahead positive, in the order of the dynamics file
+    fin_rad [rad]: angle of each fin, positive as the dynamics file has its lift, in its order
+    vehicle: name of the vehicle that is meant; empty: whichever receives it
+    hand_back [1]: release of the vehicle to the next of those who may steer it
+    """
+
+    TYPE = "actuators/1"
+    stamp_ns: int = 0
+    propeller_rps: np.ndarray = array("f8")
+    fin_rad: np.ndarray = array("f8")
+    vehicle: str = ""
+    hand_back: bool = False
 
 
 @dataclass(eq=False)
@@ -1926,6 +1946,7 @@ class View(Message):
 
 
 TYPES = {cls.TYPE: cls for cls in (
+    Actuators,
     ClockHealth,
     ConsoleState,
     ConsoleFlow,

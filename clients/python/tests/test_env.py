@@ -41,6 +41,14 @@ def environment(**changes):
                            "reward": lambda seen: -abs(seen["judge/altitude"].range_m - 6), "seconds": 2, **changes})
 
 
+def turn():
+    """Orders of the REMUS class's propeller, rudder and stern planes."""
+    def function(action, seen):
+        return ensonify.Actuators(stamp_ns=seen.t_ns, propeller_rps=action[:1], fin_rad=action[1:])
+
+    return ensonify.Act(ensonify.Actuators, function, gymnasium.spaces.Box(np.float32([0, -0.26, -0.26]), np.float32([25, 0.26, 0.26])), port="actuators")
+
+
 def process(out, name):
     """The process id of one process of the launch whose results go to `out`."""
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
@@ -119,6 +127,11 @@ class Spaces(unittest.TestCase):
         self.assertEqual((command.stamp_ns, command.heading_grid_rad, command.speed_mps, command.depth_m), (7, 0.5, 1.5, 12.0))
         with self.assertRaisesRegex(ValueError, "at least one of heading_rad, speed_mps, depth_m and altitude_m"):
             ensonify.steer(speed_mps=1.5)
+
+    def test_propellers_and_fins_are_taken_from_the_action(self):
+        sent = turn().function(np.float32([20, -0.1, 0]), mock.Mock(t_ns=7)).to_map()
+        self.assertEqual((sent["stamp_ns"], sent["propeller_rps"].tolist(), sent["fin_rad"].dtype), (7, [20.0], np.dtype("<f8")))
+        self.assertAlmostEqual(sent["fin_rad"][0], -0.1, places=6)
 
     def test_an_altitude_is_a_depth_by_what_was_measured(self):
         act = ensonify.steer(altitude_m=(2, 10), altimeter="low/altitude", depth_sensor="low/depth")
@@ -285,6 +298,34 @@ class Episodes(unittest.TestCase):
                 env.step(np.float32([20]))
             env.reset(seed=1)  # and all is well again
             env.step(np.float32([20]))
+
+    def test_an_agent_turns_the_rudder_itself(self):
+        remus = ROOT / "components/vehicle/hydrodynamic/remus_100.yaml"
+        for fin, sign in ((0.1, 1), (-0.1, -1)):  # positive to starboard
+            env = self.make(act=turn(), seconds=1000, set={"vehicles.auv.kind": "hydrodynamic", "vehicles.auv.dynamics": str(remus), "vehicles.auv.turning_radius_m": 25},
+                            truth={"auv/pose": ensonify.Pose}, reward=lambda seen: seen["auv/pose"].rate_body_radps[2])
+            env.reset(seed=1)
+            for _ in range(100):
+                _, rate_radps, *_ = env.step(np.float32([20, fin, 0]))
+            self.assertGreater(sign * rate_radps, 0.03)
+            env.close()
+
+    def test_a_process_that_may_be_lost_ends_no_episode_and_the_next_one_has_it_again(self):
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            launch = pathlib.Path(folder) / "launch.yaml"
+            text = LAUNCH.read_text()
+            self.assertIn("judge: { run: navigation,", text)
+            launch.write_text(text.replace("judge: { run: navigation,", "judge: { may_be_lost: true, run: navigation,"))
+            env = self.make(launch=launch, out=f"{folder}/out", seconds=1000)
+            env.reset(seed=1)
+            os.kill(process(f"{folder}/out/0000", "judge"), signal.SIGKILL)
+            rewards = [env.step(np.float32([20]))[1] for _ in range(200)]
+            self.assertEqual(len(set(rewards[-100:])), 1)  # by its last message
+            env.reset(seed=1)  # another launch
+            self.assertTrue(process(f"{folder}/out/0001", "judge"))
+            rewards = [env.step(np.float32([20]))[1] for _ in range(200)]
+            self.assertGreater(len(set(rewards[-100:])), 50)
+            env.close()
 
     def test_a_process_that_hangs_is_noticed(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:

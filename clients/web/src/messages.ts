@@ -6,6 +6,19 @@ export interface Numbers<T> {
   data: T;
 }
 
+export interface Actuators {
+  /** time of the order, sim time (ns) */
+  stamp_ns: number;
+  /** revolutions of each propeller, ahead positive, in the order of the dynamics file (rev/s) */
+  propeller_rps: Numbers<Float64Array>;
+  /** angle of each fin, positive as the dynamics file has its lift, in its order (rad) */
+  fin_rad: Numbers<Float64Array>;
+  /** name of the vehicle that is meant; empty: whichever receives it */
+  vehicle: string;
+  /** release of the vehicle to the next of those who may steer it (1) */
+  hand_back: boolean;
+}
+
 export interface Pace {
   /** name of the process in the launch file */
   name: string;
@@ -1389,6 +1402,7 @@ export interface View {
 
 /** Names of types by the hash in an envelope, in hexadecimal. */
 export const TYPES: Record<string, string> = {
+  "372eca3c12c04a73": "actuators/1",
   "8cd8dfcad82498f0": "clock_health/1",
   "a5052c0022b98144": "console_state/1",
   "01e9c5843cad59a7": "console_flow/1",

@@ -1,5 +1,7 @@
 #include "components/vehicle/hydrodynamic/hydrodynamic.h"
 
+#include <utility>
+
 namespace ensonify {
 namespace {
 
@@ -11,8 +13,8 @@ HydrodynamicDynamics::HydrodynamicDynamics(const VehicleConfig& config, const mo
     : body_(config.hydrodynamics->body),
       helm_(config.hydrodynamics->helm),
       water_(config.water),
-      command_{start.heading_rad, start.speed_mps, start.position_enu_m.z()},
-      next_(command_),
+      order_{{start.heading_rad, start.speed_mps, start.position_enu_m.z()}, std::nullopt},
+      next_(order_),
       next_from_(now),
       grid_(now),
       now_(now) {
@@ -22,7 +24,7 @@ HydrodynamicDynamics::HydrodynamicDynamics(const VehicleConfig& config, const mo
   state_.velocity.head<3>() =
       state_.pose.enu_from_body.conjugate() * water.current_enu_mps + start.speed_mps * frames::Vec3::UnitX();
   // Propellers turn and fins stand as the helm wants them for going on.
-  state_.actuators = motion::orders(helm_, body_, state_, command_, water);
+  state_.actuators = motion::orders(helm_, body_, state_, order_.command, water);
 }
 
 motion::Surroundings HydrodynamicDynamics::around(const motion::BodyState& state, SimTime t) const {
@@ -39,9 +41,11 @@ motion::Surroundings HydrodynamicDynamics::around(const motion::BodyState& state
 
 motion::BodyState HydrodynamicDynamics::stepped(SimTime dt) const {
   const motion::Surroundings water = around(state_, grid_);
-  motion::Command command = grid_ >= next_from_ ? next_ : command_;
+  const Order& order = grid_ >= next_from_ ? next_ : order_;
+  motion::Command command = order.command;
   command.height_m += water_.tide.at(seconds(grid_)).height_m;
-  const Eigen::VectorXd orders = motion::orders(helm_, body_, state_, command, water);
+  const Eigen::VectorXd orders =
+      order.actuators ? *order.actuators : motion::orders(helm_, body_, state_, command, water);
   // Through the step, and any part of it, the water is as in the middle of it: as at its start, it would lag behind
   // what moving() gives, and on a tide of 1.5 m the hull would be metres from the integral of its accelerations after
   // ten minutes.
@@ -52,18 +56,33 @@ motion::BodyState HydrodynamicDynamics::stepped(SimTime dt) const {
 void HydrodynamicDynamics::advance(SimTime now) {
   for (; grid_ + kStep <= now; grid_ += kStep) {
     state_ = stepped(kStep);
-    if (grid_ >= next_from_) command_ = next_;
+    if (grid_ >= next_from_) order_ = next_;
   }
   now_ = now;
 }
 
+/// Above the water level.
+double HydrodynamicDynamics::height_m() const {
+  return state_.pose.position_enu_m.z() - water_.tide.at(seconds(grid_)).height_m;
+}
+
 void HydrodynamicDynamics::command(double heading_rad, double speed_mps, std::optional<double> depth_m) {
-  if (grid_ >= next_from_) command_ = next_;
-  next_.heading_rad = heading_rad;
-  next_.speed_mps = speed_mps;
-  if (depth_m) next_.height_m = -*depth_m;
+  if (grid_ >= next_from_) order_ = next_;
+  if (next_.actuators) next_.command.height_m = height_m();  // where they have brought it
+  next_.actuators.reset();
+  next_.command.heading_rad = heading_rad;
+  next_.command.speed_mps = speed_mps;
+  if (depth_m) next_.command.height_m = -*depth_m;
   next_from_ = now_;
 }
+
+void HydrodynamicDynamics::actuate(Eigen::VectorXd orders) {
+  if (grid_ >= next_from_) order_ = next_;
+  next_.actuators = std::move(orders);
+  next_from_ = now_;
+}
+
+void HydrodynamicDynamics::stop() { command(frames::attitude_of(state_.pose.enu_from_body).heading_rad, 0.0, {}); }
 
 frames::MovingPose HydrodynamicDynamics::moving() const {
   const motion::BodyState state = now_ == grid_ ? state_ : stepped(now_ - grid_);

@@ -239,3 +239,33 @@ TEST_CASE("mistakes in a vehicle's file are named with their places") {
     CHECK(what.find("propellers: are missing: nothing moves it") != std::string::npos);
   }
 }
+
+// The same figures of the published model as above, through the vehicle's own integration.
+TEST_CASE("a step of the REMUS class's rudder to 5 degrees makes the model's turning rate") {
+  HydrodynamicDynamics dynamics(config_of("remus_100"), {{0, 0, -50}, 0.0, 2.0}, 0_s);
+  dynamics.actuate(Eigen::Vector3d(1525.0 / 60, 0, 0));
+  dynamics.advance(60_s);
+  const auto heading_rad = [&] { return frames::attitude_of(dynamics.moving().pose.enu_from_body).heading_rad; };
+  CHECK(dynamics.moving().velocity_enu_mps.norm() == Approx(2.554).epsilon(0.01));
+  CHECK_THAT(frames::wrap_pi(heading_rad()), WithinAbs(0.0, 0.01));
+  dynamics.actuate(Eigen::Vector3d(1525.0 / 60, 5 * kDegree, 0));
+  dynamics.advance(180_s);
+  const double before_rad = heading_rad();
+  dynamics.advance(190_s);
+  CHECK(frames::wrap_pi(heading_rad() - before_rad) / kDegree / 10.0 == Approx(3.61).epsilon(0.01));
+}
+
+TEST_CASE("behind orders of its actuators the helm holds the depth to which they brought the vehicle, or stops there") {
+  for (const bool stops : {false, true}) {
+    HydrodynamicDynamics dynamics(config_of("remus_100"), {{0, 0, -50}, 0.0, 2.0}, 0_s);
+    dynamics.actuate(Eigen::Vector3d(1525.0 / 60, 0, -5 * kDegree));  // up
+    dynamics.advance(20_s);
+    const double height_m = dynamics.moving().pose.position_enu_m.z();
+    CHECK(height_m > -45.0);
+    if (stops) dynamics.stop();
+    else dynamics.command(0.0, 2.0, std::nullopt);
+    dynamics.advance(140_s);
+    CHECK(dynamics.moving().velocity_enu_mps.norm() == Approx(stops ? 0.0 : 2.0).margin(0.05));
+    CHECK_THAT(dynamics.moving().pose.position_enu_m.z(), WithinAbs(height_m, stops ? 10.0 : 0.1));
+  }
+}
