@@ -5,7 +5,7 @@ import unittest
 
 from support import SOURCE
 
-STEPS = 3500
+STEPS = 12000  # of the world
 NEEDED = ("torch", "stable_baselines3", "gymnasium")
 
 
@@ -16,8 +16,8 @@ class Learn(unittest.TestCase):
         sys.path.insert(0, str(SOURCE / "examples/learn_altitude"))
         import learn
         env = learn.environment("AltitudeHold", shaped=True)
-        untrained, model = learn.learner(env, seed=1), learn.learner(env, seed=1)
-        model.learn(STEPS)
+        untrained, model = [learn.learner(env, 1, learn.Budget()) for _ in range(2)]
+        model.learn(STEPS // learn.HOLD)
         env.close()
         means = learn.evaluate("AltitudeHold", model, untrained, seeds=learn.UNSEEN[:2])
         self.assertGreater(means["trained"], means["untrained"] + 100)  # of 600 that an episode can earn
