@@ -15,16 +15,16 @@ using runlines::Vec2;
 
 namespace {
 
-struct Stop {
+struct Halt {
   double overshoot_m = 0.0;  // beyond the place along the last way to it, from when the vehicle has arrived
   double farthest_m = 0.0;   // from the place, from then on
   bool done = false;
 };
 
 /// Runs `steps` of which the last keeps the origin for five minutes. `last_way` is that to the origin.
-Stop stop(const std::string& vehicle, double speed_mps, const std::string& steps, const Vec2& last_way,
+Halt stop(const std::string& vehicle, double speed_mps, const std::string& steps, const Vec2& last_way,
           double current_mps, double within_m = 3.0) {
-  Stop stop;
+  Halt stop;
   bool arrived = false;
   const std::string mission = "speed_mps: " + std::to_string(speed_mps) + ", run_in_m: 50, steps: [" + steps +
                               "{keep: [0, 0], for_s: 300, within_m: " + std::to_string(within_m) + "}]";
@@ -43,8 +43,8 @@ Stop stop(const std::string& vehicle, double speed_mps, const std::string& steps
 }
 
 /// The worst of stops behind lines on five headings: across the current, with it, against it and between.
-Stop worst_stop(const std::string& vehicle, double speed_mps, double current_mps, double within_m = 3.0) {
-  Stop worst{0.0, 0.0, true};
+Halt worst_stop(const std::string& vehicle, double speed_mps, double current_mps, double within_m = 3.0) {
+  Halt worst{0.0, 0.0, true};
   for (const double heading_deg : {0.0, 45.0, 90.0, 180.0, 270.0}) {
     const double heading_rad = heading_deg * std::numbers::pi / 180.0;
     const Vec2 way(std::sin(heading_rad), std::cos(heading_rad));
@@ -52,7 +52,7 @@ Stop worst_stop(const std::string& vehicle, double speed_mps, double current_mps
     std::snprintf(line, sizeof line, "{line: [[%.3f, %.3f], [%.3f, %.3f]]}, ", -500 * way.x(), -500 * way.y(),
                   -200 * way.x(), -200 * way.y());
     const Vec2 upstream(-1.0, 0.0);
-    const Stop one = stop(vehicle, speed_mps, line, current_mps > 0.0 ? upstream : way, current_mps, within_m);
+    const Halt one = stop(vehicle, speed_mps, line, current_mps > 0.0 ? upstream : way, current_mps, within_m);
     worst.overshoot_m = std::max(worst.overshoot_m, one.overshoot_m);
     worst.farthest_m = std::max(worst.farthest_m, one.farthest_m);
     worst.done = worst.done && one.done;
@@ -67,7 +67,7 @@ const std::string kAuv = kAuvByForces + ", start: {position_m: [0, -550, -5]}";
 TEST_CASE("in a current a kinematic launch stops 0.6 m beyond its station, stays within 5 m") {
   for (const double current_mps : {0.0, 0.5}) {
     for (const double speed_mps : {2.0, 4.0}) {
-      const Stop worst = worst_stop(kLaunch, speed_mps, current_mps);
+      const Halt worst = worst_stop(kLaunch, speed_mps, current_mps);
       CAPTURE(current_mps, speed_mps, worst.overshoot_m, worst.farthest_m);
       CHECK(worst.done);
       CHECK(worst.overshoot_m < 0.2 + 0.1 * speed_mps);  // the way made in the 100 ms that a command takes
@@ -82,7 +82,7 @@ TEST_CASE("in a current hydrodynamic vehicles stop 6 m beyond their station, sta
     // round.
     for (const auto& [vehicle, speed_mps, within_m] :
          {std::tuple(kLaunchByForces, 2.0, 3.0), {kLaunchByForces, 4.0, 4.0}, {kAuv, 2.0, 3.0}}) {
-      const Stop worst = worst_stop(vehicle, speed_mps, current_mps, within_m);
+      const Halt worst = worst_stop(vehicle, speed_mps, current_mps, within_m);
       CAPTURE(vehicle, current_mps, speed_mps, worst.overshoot_m, worst.farthest_m);
       CHECK(worst.done);
       CHECK(worst.overshoot_m < 6.0);
@@ -93,7 +93,7 @@ TEST_CASE("in a current hydrodynamic vehicles stop 6 m beyond their station, sta
 
 TEST_CASE("a current that no line has shown is learned on the way to the place") {
   for (const std::string& vehicle : {kLaunch, kLaunchByForces}) {
-    const Stop stopped =
+    const Halt stopped =
         stop(vehicle + ", start: {position_m: [-600, 30, 0], heading_deg: 90}", 2.0, "", {-1.0, 0.0}, 0.5);
     CAPTURE(vehicle, stopped.overshoot_m, stopped.farthest_m);
     CHECK(stopped.done);
