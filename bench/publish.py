@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/performance.md out of what `bench/run.py --json FILE` measured.
 
-    bench/run.py --only table --json table.json && bench/publish.py table.json > docs/performance.md
+    bench/run.py --only table,whole --json table.json && bench/publish.py table.json > docs/performance.md
 """
 import argparse
 import json
@@ -11,7 +11,7 @@ HEAD = """# How fast it is
 
 Pings, or images, a second of wall time in a free run: vehicle, navigation, pager and head as processes of their own, all effects on. Sim time keeps
 2 R / c and the dead time, so many of these are faster than the sea allows. Windy is 5 m/s of wind, whose waves leave no path by the surface; calm has
-the echoes by way of the surface. Rays are those traced in a ping. `./dev bench --only table --json FILE` measures it again (bench/table_bench.py has the
+the echoes by way of the surface. Rays are those traced in a ping. `./dev bench --only table,whole --json FILE` measures it again (bench/table_bench.py has the
 configurations), `bench/publish.py FILE` writes this page, and `bench/compare.py COMMIT` holds a commit against another, in turns.
 
 | head | sea | pings/s | goal | rays | processor time of a ping | of a ray |
