@@ -1,6 +1,7 @@
 #include "components/feeds/log_player.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -14,7 +15,7 @@ using namespace ensonify;
 namespace {
 
 std::string time_of(double t_s) {
-  const int hundredths = static_cast<int>(100.0 * t_s + 0.5), whole = hundredths / 100;
+  const int hundredths = static_cast<int>(std::lround(100.0 * t_s)), whole = hundredths / 100;
   char text[32];
   std::snprintf(text, sizeof text, "%02d%02d%02d.%03d", whole / 3600, whole / 60 % 60, whole % 60,
                 10 * (hundredths % 100));
