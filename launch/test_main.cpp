@@ -47,8 +47,10 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1000));
   app.add_option("--out", options.out, "folder of results; runs/ID has those of each run (default: out/test)");
   app.add_option("--junit", options.junit, "write all results as JUnit XML to this file");
-  app.add_option("--arg", options.find.args, "NAME=VALUE: an argument, for the launch files that have it");
-  app.add_option("--set", options.find.sets, "KEY=VALUE: as of `ensonify run`, for every launch");
+  app.add_option("--arg", options.find.args, "NAME=VALUE: an argument, for the launch files that have it")
+      ->allow_extra_args(false);  // a launch file may follow
+  app.add_option("--set", options.find.sets, "KEY=VALUE: as of `ensonify run`, for every launch")
+      ->allow_extra_args(false);
   app.add_option("--filter", options.find.text, "only launch files whose path holds this text");
   app.add_option("--rate", options.rate, "sim seconds per wall second (default: as fast as possible)")
       ->check(CLI::Range(1e-3, 1e6));
