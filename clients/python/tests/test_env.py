@@ -474,7 +474,7 @@ class Surroundings(unittest.TestCase):
 
     def test_the_manuals_code_runs_as_it_stands(self):
         code = re.findall(r"^```python\n(.*?)^```", (ROOT / "docs/manual/gymnasium.md").read_text(), re.M | re.S)
-        self.assertEqual(len(code), 5)
+        self.assertEqual(len(code), 6)
         done = subprocess.run([sys.executable, "-c", "\n".join(code)], cwd=ROOT, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(float(done.stdout), 440)

@@ -87,11 +87,14 @@ void directions_to(const ToHead& to_head, const Edges& edges, const Column& firs
     found.unit[0][i] = static_cast<float>(per_m * x[i]);
     found.unit[1][i] = static_cast<float>(per_m * y[i]);
     found.unit[2][i] = static_cast<float>(per_m * z[i]);
-    const bool within = (y[i] * from_x >= zero[i] * from_y) & (y[i] * to_x < zero[i] * to_y) &
-                        (along[i] >= low * away_m) & (along[i] < high * away_m);
-    found.within[i] = within ? 1 : 0;
+    // As numbers: && would be a branch, and the loop no vector code.
+    const auto right = static_cast<std::uint64_t>(y[i] * from_x >= zero[i] * from_y),
+               left = static_cast<std::uint64_t>(y[i] * to_x < zero[i] * to_y),
+               above = static_cast<std::uint64_t>(along[i] >= low * away_m),
+               below = static_cast<std::uint64_t>(along[i] < high * away_m);
+    found.within[i] = right & left & above & below;
     const double solid_angle_sr = block_m3 * share[i] * per_m * per_m * per_m;  // below dA / away^3
-    found.solid_angle_sr[i] = within ? solid_angle_sr : 0.0;
+    found.solid_angle_sr[i] = found.within[i] != 0 ? solid_angle_sr : 0.0;
   }
 }
 
