@@ -98,7 +98,8 @@ class Ends(Lost):
                 out = fault.split("_")[0]
                 result = self.run_launch(losing("head", survey(seconds=4, head=fault)), out=out)
                 self.check(result, "head", message)
-                self.assertEqual(self.lost(result, "head")["lost"]["at_s"], 1.0)
+                # The first event that it has not said to be done: it says so of several at once.
+                self.assertLessEqual(self.lost(result, "head")["lost"]["at_s"], 1.0)
 
     def test_a_consumer_of_large_messages_that_is_stopped_blocks_nobody_for_ever(self):
         self.check(self.run_launch(losing("consumer", survey(seconds=4, size=4_000_000, consumer="stop_s: 1"))), "consumer", "no progress")
