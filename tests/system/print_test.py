@@ -61,7 +61,7 @@ class Print(SystemTest):
         self.assertRegex(text, r"\n  water:.*#.*(\n    .*)*\n    wind_speed_mps: 7.5 +# wind 10 m above the sea")
         self.assertRegex(text, r"\n      swath_deg: 100 +# \S.*\(deg\)")
         document = yaml.safe_load(text)
-        self.assertEqual(list(document), ["ensonify", "scenario", "processes", "clock", "after", "expect"])
+        self.assertEqual(list(document), ["ensonify", "scenario", "processes", "clock", "isa", "after", "expect"])
         without = [line for line in text.splitlines() if ": " in line and "  # " not in line and "run:" not in line]
         self.assertEqual(without, [])
 
