@@ -53,7 +53,8 @@ def page(results: dict, note: str) -> str:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=pathlib.Path, help="JSON of bench/run.py")
+    parser.add_argument("results", type=pathlib.Path, nargs="+", help="JSON of bench/run.py, one or several of the same machine")
     parser.add_argument("--note", default="", help="a sentence about the machine's load")
     options = parser.parse_args()
-    print(page(json.loads(options.results.read_text()), options.note), end="")
+    parts = [json.loads(file.read_text()) for file in options.results]
+    print(page(parts[0] | {"rows": [row for part in parts for row in part["rows"]]}, options.note), end="")
