@@ -18,9 +18,9 @@ configurations), `bench/publish.py FILE` writes this page, and `bench/compare.py
 |---|---|---|---|---|---|---|
 """
 WHOLE = """
-In real time ({seconds} s, bench/launch/table_whole.yaml: multibeam of 512 beams at 10 Hz and quality 0.25, sidescan at 15 Hz, forward-looking sonar as
-above at 10 Hz, graded navigation, and a recorder that keeps soundings, sidescan and every tenth image) a whole launch takes {share:.0f} % of the cores
-(goal: 60), and {late} of its events are late: {pings}.
+A whole launch in real time ({seconds} s, bench/launch/table_whole.yaml) takes {share:.0f} % of the cores (goal: 60), and {late} of its events are late (goal: none). It has a multibeam of
+512 beams at 10 Hz and quality 0.25, a sidescan at 15 Hz, a forward-looking sonar of 128 beams as above at 10 Hz, and graded navigation. A recorder keeps soundings, sidescan
+and every tenth image: {pings}.
 """
 DEMO = """
 | | x real time | goal |
