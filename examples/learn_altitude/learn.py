@@ -17,7 +17,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 
 UNSEEN = range(9000, 9005)  # seeds of the evaluation; those of the training are drawn from two billion
 CHOOSING = range(8000, 8010)  # seeds by which the best policy of the training is chosen
-CRASH = 60.0  # what touching the bottom costs in training
+CRASH = 20.0  # what touching the bottom costs in training
 HOLD = 5  # steps that an action stands: the agent decides twice a second, for a vehicle that changes its depth slowly
 HISTORY = 6  # observations, one of each decision, that the agent is given at once, newest first
 
@@ -131,10 +131,10 @@ class Best(BaseCallback):
 
 
 def learner(env, seed, budget, warm_up=300):
-    """Soft actor-critic [SAC] with a small network: every decision teaches twice, and less and less towards the end."""
+    """Soft actor-critic [SAC] with a small network: every decision teaches four times, and less and less towards the end."""
     rate = lambda left: 1e-3 * max(0.05, min(left, budget.left(0)))
-    return SAC("MlpPolicy", env, seed=seed, learning_rate=rate, gamma=0.95, batch_size=128, buffer_size=200_000, learning_starts=warm_up,
-               train_freq=4, gradient_steps=8, ent_coef="auto_0.1", policy_kwargs={"net_arch": [64, 64]}, device="cpu")
+    return SAC("MlpPolicy", env, seed=seed, learning_rate=rate, gamma=0.98, batch_size=128, buffer_size=200_000, learning_starts=warm_up,
+               train_freq=4, gradient_steps=16, ent_coef="auto_0.1", policy_kwargs={"net_arch": [64, 64]}, device="cpu")
 
 
 def returns(env, policy, seeds):
