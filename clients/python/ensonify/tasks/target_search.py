@@ -130,7 +130,7 @@ class TargetSearch(Env):
 
 class Baseline:
     """A classical search: three lines 22 m apart, each sees what lies under the next. The box is where some rows have a shadow that
-    tells of something tall, from the shadow's length, its range and the altitude."""
+    means something tall, from the shadow's length, its range and the altitude."""
 
     LOOKAHEAD_M, TURN_NORTH_M = 12.0, 52.0  # along a line; where it ends
     TALL_M, ROWS = 0.9, 4  # height of what throws the shadow, and rows that see it
