@@ -25,10 +25,10 @@ def waterfall(*, shadow_cells, rows=(6, 16), start=30, side=1):
 
 def seen(action, *, poses=((0.0, -60.0, -12.0),)):
     """A box at 0, 0, and where a vehicle that heads north has been since the last step."""
-    told = {"pager/object": ensonify.Object(position_enu_m=(0.0, 0.0, -17.0)),
+    newest = {"pager/object": ensonify.Object(position_enu_m=(0.0, 0.0, -17.0)),
             "auv/pose": ensonify.Pose(position_enu_m=poses[-1])}
     each = mock.MagicMock(action=np.float32(action))
-    each.__getitem__.side_effect = told.get
+    each.__getitem__.side_effect = newest.get
     each.new.return_value = [ensonify.Pose(position_enu_m=place, enu_from_body=NORTH) for place in poses]
     return each
 
