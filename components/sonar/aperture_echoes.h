@@ -62,7 +62,7 @@ class ApertureEchoes {
     // Scratch.
     echo::Image coherent;
     std::vector<float> gain, coherent_gain, foreign_gain, volume_upa2;
-    echo::TimeIndex index;
+    echo::RowPoints points;
     echo::RowBackground background;
   };
 

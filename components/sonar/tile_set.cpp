@@ -1,5 +1,6 @@
 #include "components/sonar/tile_set.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "components/terrain/mesh_message.h"
@@ -28,7 +29,12 @@ void TileSet::insert(const msg::Tile& message) {
   const auto sediment = message.sediment.flat();
   trace::make_room(tile.height_m, height.size());
   tile.height_m.assign(height.begin(), height.end());
-  tile.sediment.assign(sediment.begin(), sediment.end());
+  // Where all posts are of one class rays need not look theirs up, nor is there memory for it.
+  if (!sediment.empty() && std::equal(sediment.begin() + 1, sediment.end(), sediment.begin())) {
+    tile.everywhere = sediment.front();
+  } else {
+    tile.sediment.assign(sediment.begin(), sediment.end());
+  }
 
   grid_.spacing_m = tile.spacing_m;
   grid_.cells = tile.columns - 1;

@@ -62,7 +62,7 @@ std::optional<Vec3> normal_enu(const Tile& tile, const Vec2& place_enu_m) {
 }
 
 std::uint8_t sediment_at(const Tile& tile, const Vec2& place_enu_m) {
-  if (tile.sediment.empty()) return 0;
+  if (tile.sediment.empty()) return tile.everywhere;
   const Vec2 posts = (place_enu_m - tile.origin_enu_m) / tile.spacing_m;
   const double column = std::floor(posts.x() + 0.5), row = std::floor(posts.y() + 0.5);
   if (!(column >= 0.0 && row >= 0.0 && column < tile.columns && row < tile.rows)) return 0;

@@ -31,7 +31,8 @@ struct Tile {
   std::int32_t columns = 0;  // posts to the east, >= 2
   std::int32_t rows = 0;     // posts to the north, >= 2
   std::vector<float> height_m;
-  std::vector<std::uint8_t> sediment;  // class per post; empty means class 0 everywhere
+  std::vector<std::uint8_t> sediment;  // class per post; empty: all are `everywhere`
+  std::uint8_t everywhere = 0;
 
   std::size_t post(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);

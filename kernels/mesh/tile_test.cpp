@@ -54,6 +54,8 @@ TEST_CASE("heights are whole steps of the lattice, and a hole stays one") {
 TEST_CASE("the class is that of the nearest post") {
   Tile tile = plane_tile();
   CHECK(sediment_at(tile, {0, 0}) == 0);
+  tile.everywhere = 3;
+  CHECK(sediment_at(tile, {0, 0}) == 3);
   tile.sediment.assign(tile.height_m.size(), 1);
   tile.sediment[tile.post(8, 8)] = 2;
   CHECK(sediment_at(tile, {0.2, -0.2}) == 2);
