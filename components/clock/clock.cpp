@@ -162,11 +162,12 @@ void Clock::start() {
       "clock", SimTime{0}, "go",
       fmt::format("epoch={} processes={} edges={} connect_s={:.4f}", epoch_.number, registry_.size(),
                   registry_.graph().edges.size(), std::chrono::duration<double>(epoch_.began - phase_began_).count()));
-  pacer_.start(epoch_.began);
   hand_out();
 }
 
+/// Real time starts when everybody has run its events at sim time 0: there heads and pager get ready.
 void Clock::hand_out() {
+  if (epoch_.conductor->now() > SimTime{0}) pacer_.start(steady_clock::now());
   epoch_.conductor->set_cap(epoch_.ending ? kNever : pacer_.cap(steady_clock::now()));
   for (const Conductor::Grant& grant : epoch_.conductor->grants()) {
     protocol::Grant message;

@@ -101,7 +101,7 @@ void Clock::begin_next() {
   epoch_.number = begin.epoch;
   epoch_.out = begin.out;
   registry_.begin(launch_, begin.epoch);
-  pacer_.begin_again(now);
+  pacer_.begin_again();
   phase_ = Phase::kJoining;
   phase_began_ = now;
   send_to_all(protocol::encode(begin));

@@ -4,9 +4,16 @@
 
 namespace ensonify::clock {
 
+void Pacer::start(WallTime now) {
+  if (started_) return;
+  started_ = true;
+  origin_wall_ = now;
+}
+
 SimTime Pacer::cap(WallTime now) const {
   if (paused_) return pause_cap_;
   if (!rate_) return kNever;
+  if (!started_) return origin_sim_;
   const double elapsed_s = std::chrono::duration<double>(now - origin_wall_).count();
   const double ahead_s = std::max(0.0, elapsed_s) * *rate_;
   const bool for_ever = ahead_s >= seconds(kNever - std::max(origin_sim_, SimTime{0})) - 1.0;  // no overflow
@@ -14,7 +21,7 @@ SimTime Pacer::cap(WallTime now) const {
 }
 
 std::optional<WallTime> Pacer::when(SimTime t) const {
-  if (paused_ || !rate_ || t == kNever) return std::nullopt;
+  if (paused_ || !rate_ || !started_ || t == kNever) return std::nullopt;
   constexpr double kLongest_s = 1e9;  // decades; more would not fit
   const std::chrono::duration<double> ahead(std::min(seconds(t - origin_sim_) / *rate_, kLongest_s));
   // A nanosecond more, so that rounding cannot leave the cap just short of t.
@@ -39,9 +46,9 @@ void Pacer::set_rate(std::optional<double> rate, SimTime reached, WallTime now) 
   rate_ = rate;
 }
 
-void Pacer::begin_again(WallTime now) {
+void Pacer::begin_again() {
+  started_ = false;
   origin_sim_ = SimTime{0};
-  origin_wall_ = now;
   pause_cap_ = SimTime{-1};
 }
 

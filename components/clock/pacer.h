@@ -15,9 +15,11 @@ class Pacer {
   /// `rate` in sim seconds per wall second; nothing runs free.
   Pacer(std::optional<double> rate, SimTime slip_after) : rate_(rate), slip_after_(slip_after) {}
 
-  void start(WallTime now) { origin_wall_ = now; }
-  /// Sim time is 0 again. The rate stands; a paused run waits there.
-  void begin_again(WallTime now);
+  /// From now on sim time follows wall time; called again, nothing. Before, the cap stands at 0: the first events take
+  /// what they need to get ready.
+  void start(WallTime now);
+  /// Sim time is 0 again, and has to be started. The rate stands; a paused run waits there.
+  void begin_again();
 
   /// The cap at a wall time: kNever when free running.
   SimTime cap(WallTime now) const;
@@ -41,6 +43,7 @@ class Pacer {
  private:
   std::optional<double> rate_;
   SimTime slip_after_;
+  bool started_ = false;
   WallTime origin_wall_{};
   SimTime origin_sim_{0};
   bool paused_ = false;

@@ -22,6 +22,17 @@ TEST_CASE("the cap follows wall time at the rate") {
   CHECK(started({}).cap(kStart) == kNever);
 }
 
+TEST_CASE("until it is started the cap stands at 0, and nothing is late") {
+  Pacer pacer(1.0, 500_ms);
+  CHECK(pacer.cap(kStart + 9s) == 0_s);
+  CHECK_FALSE(pacer.when(1_s));
+  CHECK(pacer.lateness(0_s, kStart + 9s) == 0_s);
+  pacer.start(kStart + 9s);
+  pacer.start(kStart + 10s);
+  CHECK(pacer.cap(kStart + 11s) == 2_s);
+  CHECK(Pacer({}, 500_ms).cap(kStart) == kNever);
+}
+
 TEST_CASE("waiting until `when` is enough: the cap has then reached the event") {
   for (const double rate : {0.3, 1.0, 4.0, 7.7}) {
     const Pacer pacer = started(rate);
@@ -52,12 +63,15 @@ TEST_CASE("a pause holds the cap, a step moves it, resuming goes on from there")
 TEST_CASE("another epoch begins at 0 at the rate in force, or waits there if paused") {
   Pacer pacer = started(2.0);
   CHECK(pacer.slip(1_s, kStart + 5s) == 9_s);
-  pacer.begin_again(kStart + 6s);
+  pacer.begin_again();
+  CHECK(pacer.cap(kStart + 6s) == 0_s);
+  pacer.start(kStart + 6s);
   CHECK(pacer.cap(kStart + 7s) == 2_s);
   pacer.step_to(3_s, 2_s, kStart + 7s);
-  pacer.begin_again(kStart + 8s);
+  pacer.begin_again();
   CHECK(pacer.paused());
   CHECK(pacer.cap(kStart + 9s) < 0_s);
+  pacer.start(kStart + 9s);
   pacer.resume(kStart + 10s);
   CHECK(pacer.cap(kStart + 11s) == 2_s);
 }

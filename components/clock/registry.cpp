@@ -6,6 +6,7 @@
 
 #include "components/clock/rewiring.h"
 #include "components/runtime/declared.h"
+#include "components/runtime/paced.h"
 #include "launch/process/launch_wiring.h"
 
 namespace ensonify::clock {
@@ -28,6 +29,7 @@ void Registry::begin(const Launch& launch, std::uint32_t epoch) {
   rules_ = wire_rules(launch);
   places_ = process_places(launch);
   facts_ = facts_of(launch);
+  if (launch.clock.rate) facts_[kPacedFact] = "true";
   patience_s_ = kPatienceInDeadlines * launch.clock.progress_deadline_s;
   declarations_.clear();
   graph_ = {};

@@ -41,6 +41,12 @@ class Echosounder {
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
 
+  /// What later pings depend on.
+  struct State {
+    detect::BottomTrack bottom;
+  };
+  State& state() { return state_; }
+
  private:
   msg::Ping ping_message(const PingEvent& event, const HeadSettings& settings, const Design& design,
                          const echo::Image& image) const;
@@ -52,10 +58,6 @@ class Echosounder {
     ShotMemory shot;
     ApertureEchoes::Memory beams;
     BottomFinder::Memory bottom;
-  };
-  /// What later pings depend on.
-  struct State {
-    detect::BottomTrack bottom;
   };
 
   const Config& config_;

@@ -9,6 +9,7 @@ namespace ensonify {
 /// The run's time of arrivals, whose wall time is known. Events of a run in real time are never early, but some are
 /// late by what else the machine does: the least late ones bind the two clocks. Where the run falls behind by more than
 /// kMostLate it was stopped, or its rate is below 1: then the event itself does.
+/// Real time starts when all have run their events at 0, so that those bind nothing.
 class ArrivalClock {
  public:
   using Wall = std::chrono::steady_clock::time_point;

@@ -81,13 +81,6 @@ class Multibeam {
 
   const ArrayDesign& arrays() const { return arrays_; }
 
- private:
-  void follow_range(const HeadSettings& settings);
-  SteeringInputs steering_inputs(SimTime now, const Surroundings& around) const;
-  msg::Energies energies_of(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
-                            std::span<const Sector::Sent> sent);
-  void add_images(const Sent& sent, const Placed& placed, std::span<const SectorBeams> beams, Report& report) const;
-
   /// What later pings depend on.
   struct State {
     ReliefEstimator relief;
@@ -96,6 +89,14 @@ class Multibeam {
     std::optional<frames::Attitude> attitude;  // the newest that the motion sensor gave
     HeadingMean heading;
   };
+  State& state() { return state_; }
+
+ private:
+  void follow_range(const HeadSettings& settings);
+  SteeringInputs steering_inputs(SimTime now, const Surroundings& around) const;
+  msg::Energies energies_of(const PingEvent& event, const HeadSettings& settings, const Steering& steering,
+                            std::span<const Sector::Sent> sent);
+  void add_images(const Sent& sent, const Placed& placed, std::span<const SectorBeams> beams, Report& report) const;
 
   const Config& config_;
   ArrayDesign arrays_;

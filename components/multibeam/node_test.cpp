@@ -255,3 +255,23 @@ TEST_CASE("each sector's transmission is published with its time and frequency, 
     CHECK(reported[i].stamp_ns == ping * 100'000'000 + static_cast<std::int64_t>(i % 3) * 1'000'000);
   }
 }
+
+TEST_CASE("a ping rehearsed before real time starts changes no message") {
+  MultibeamConfig config = shallow();
+  config.auto_range = true;
+  config.range_m = 100.0;
+  const auto sent_by = [&](bool paced) {
+    Head head(config);
+    if (paced) head.pace();
+    give_motion(head, {.speed_mps = 2.0, .roll_rad = 0.1, .motion_sensor = true}, 700_ms);
+    head.give("tile", flat_tile(-20.0));
+    head.run_until(600_ms);
+    std::string bytes;
+    for (const char* port : {"transmit", "ping", "soundings", "health"})
+      for (const msg::Packet& packet : head.take(port)) bytes += bytes_of(packet);
+    return bytes;
+  };
+  const std::string free = sent_by(false);
+  CHECK(free.size() > 1'000'000);
+  CHECK((sent_by(true) == free));
+}

@@ -47,6 +47,12 @@ class Sidescan {
   Design prepare(const HeadSettings& settings) const;
   Report ping(const PingEvent& event, const SentPing& sent, const Surroundings& around);
 
+  /// What later pings depend on.
+  struct State {
+    detect::BottomTrack bottom;
+  };
+  State& state() { return state_; }
+
  private:
   Sidescan(const Config& config, const SidescanChannel& channel, const LineDesign& line);
 
@@ -62,10 +68,6 @@ class Sidescan {
     Labeller::Memory labels;
     ExpectedEchoes<ApertureEchoes>::Memory expected;
     BottomFinder::Memory bottom;
-  };
-  /// What later pings depend on.
-  struct State {
-    detect::BottomTrack bottom;
   };
 
   const Config& config_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
@@ -7,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "components/runtime/log.h"
+#include "components/runtime/paced.h"
 #include "components/runtime/ports.h"
 #include "components/sonar/head_config.h"
 #include "components/sonar/head_inputs.h"
@@ -84,7 +87,7 @@ std::string no_seabed_reason(const std::vector<SilentChannel>& silent);
 ///   Design prepare(settings)               what follows from settings alone: const, without memory
 ///   HeadReport<M...> ping(event, sent, around)
 /// and, only if it has inputs of its own, connect(ports). It has at most two members that change: its Memory, scratch
-/// whose contents do not matter, and its State, what later pings depend on.
+/// whose contents do not matter, and its State, what later pings depend on, which state() gives.
 template <class Head>
 class HeadNode {
  public:
@@ -94,6 +97,7 @@ class HeadNode {
   HeadNode(const Config& config, Ports& ports) : HeadNode(config, Head::plan(config), ports) {}
 
   SimTime step(SimTime now) {
+    if (now == SimTime{0} && is_paced(ports_.facts())) rehearse();
     return cycle_.step(
         now, [&] { transmit(now); }, [this](const PingUnderWay& ping) { publish(ping); });
   }
@@ -121,7 +125,10 @@ class HeadNode {
   };
 
   HeadNode(const Config& config, const HeadPlan& plan, Ports& ports)
-      : config_(config), inputs_(ports, inputs_of(config, plan)), cycle_(ports, inputs_, config.timing()) {
+      : ports_(ports),
+        config_(config),
+        inputs_(ports, inputs_of(config, plan)),
+        cycle_(ports, inputs_, config.timing()) {
     for (const HeadInputs::Channel& planned : plan.channels) {
       Channel& channel = channels_.emplace_back(config_, channels_.size(), planned.name);
       declare(channel, plan, config.timing().rate, ports);
@@ -141,11 +148,41 @@ class HeadNode {
     for_pairs(channel.head.outputs(), channel.outs, declare);
   }
 
+  /// A ping at rest that nobody receives, before sim time follows wall time. Mesh, tables and memory are made in it,
+  /// which else would make the first ping late.
+  void rehearse() {
+    constexpr SimTime kNow{0};
+    const auto body = inputs_.truth().at(kNow.count());
+    if (!body || !inputs_.obstacle(kNow).empty()) return;
+    const auto began = std::chrono::steady_clock::now();
+    frames::PoseHistory truth(0);
+    truth.push(kNow.count(), *body);
+    const Surroundings around = surroundings(truth);
+    for (std::size_t i = 0; i < channels_.size(); ++i) rehearse(channels_[i].head, inputs_.settings_at_ping(i), around);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+    log::event(ports_, "rehearsed", "took_s={:.3f}", took.count());
+  }
+
+  static void rehearse(Head& head, const HeadSettings& settings, const Surroundings& around) {
+    const auto ping = [&] {
+      const Sent sent = head.transmit(SimTime{0}, settings, around);
+      head.ping({0, SimTime{0}, sent.sectors.front().settings.range_m}, sent, around);
+    };
+    if constexpr (requires { head.state(); }) {
+      const auto state = head.state();
+      ping();
+      head.state() = state;
+    } else {
+      ping();
+    }
+  }
+
   void transmit(SimTime now) {
     std::vector<Transmission> sectors;
     for (std::size_t i = 0; i < channels_.size(); ++i) {
       Channel& channel = channels_[i];
-      channel.under_way.push_back(channel.head.transmit(now, inputs_.settings_at_ping(i), surroundings()));
+      channel.under_way.push_back(
+          channel.head.transmit(now, inputs_.settings_at_ping(i), surroundings(inputs_.truth())));
       const auto& sent = channel.under_way.back().sectors;
       sectors.insert(sectors.end(), sent.begin(), sent.end());
     }
@@ -161,7 +198,7 @@ class HeadNode {
       channel.under_way.pop_front();
       PingEvent event = ping.event(sector);
       event.picture = channel.pictures && channel.pictures->wanted();
-      auto report = channel.head.ping(event, sent, surroundings());
+      auto report = channel.head.ping(event, sent, surroundings(inputs_.truth()));
       sector += sent.sectors.size();
 
       for_pairs(report.messages, channel.outs, [&]<msg::Message M>(std::optional<M>& message, auto& out) {
@@ -201,11 +238,16 @@ class HeadNode {
     (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<A>>>());
   }
 
-  Surroundings surroundings() const {
-    return {inputs_.truth(),           inputs_.seabed(),   inputs_.estimate(), inputs_.navigation_errors(),
-            inputs_.sound_speed_mps(), inputs_.probe_mps()};
+  Surroundings surroundings(const frames::PoseHistory& truth) const {
+    return {truth,
+            inputs_.seabed(),
+            inputs_.estimate(),
+            inputs_.navigation_errors(),
+            inputs_.sound_speed_mps(),
+            inputs_.probe_mps()};
   }
 
+  Ports& ports_;
   const Config config_;  // the only one: channels refer to it
   HeadInputs inputs_;
   PingCycle cycle_;

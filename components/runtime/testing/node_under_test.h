@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "components/runtime/paced.h"
 #include "components/runtime/stepper.h"
 
 namespace ensonify {
@@ -106,6 +107,9 @@ class NodeUnderTest {
     late_ = late;
   }
 
+  /// Sim time is to follow wall time; before the first message and the first step.
+  void pace() { facts_[kPacedFact] = "true"; }
+
   /// Packets published on `port` since it was last asked for.
   std::vector<msg::Packet> take(const std::string& port) { return std::exchange(published_["test/" + port], {}); }
 
@@ -129,7 +133,7 @@ class NodeUnderTest {
     for (const OutPort& out : ports_.outs())
       outs.push_back({"test/" + out.port, static_cast<std::uint32_t>(outs.size())});
     const auto keep = [this](msg::Packet&& packet) { published_[packet.topic].push_back(std::move(packet)); };
-    stepper_.wire(feeds_, std::move(outs), {}, 1, 1, keep,
+    stepper_.wire(feeds_, std::move(outs), facts_, 1, 1, keep,
                   {[this](const std::string&) { return watched_; }, keep, [this] { return late_; }});
   }
 
@@ -137,6 +141,7 @@ class NodeUnderTest {
   Node node_;
   Stepper stepper_;
   std::vector<Feed> feeds_;
+  std::map<std::string, std::string> facts_;
   std::map<std::uint32_t, std::uint64_t> seq_;
   std::map<std::string, std::vector<msg::Packet>> published_;
   bool started_ = false;

@@ -41,6 +41,7 @@ struct StubConfig {
   std::vector<In> ins;
   bool read_every_byte = false;
   double jitter_ms = 0.0;
+  double first_ms = 0.0;
   std::optional<double> finish_s, throw_s, spin_s, die_s, stop_s;
 
   static void parameters(auto& self, auto&& visit) {
@@ -52,6 +53,7 @@ struct StubConfig {
           self.read_every_byte);
     visit("jitter_ms", "", in(0, 1000), "random wall-clock pauses before events, up to so many milliseconds",
           self.jitter_ms);
+    visit("first_ms", "", in(0, 10000), "wall-clock milliseconds that its event at 0 takes", self.first_ms);
     visit("finish_s", "s", time, "asks for the run's end", self.finish_s);
     visit("throw_s", "s", time, "throws", self.throw_s);
     visit("spin_s", "s", time, "never returns", self.spin_s);

@@ -1,14 +1,20 @@
 #include "tests/support/stub/node.h"
 
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 
 namespace ensonify {
+namespace {
+
+void sleep_for(double ms) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms)); }
+
+}  // namespace
 
 StubNode::StubNode(const Config& config, Ports& ports)
     : config_(config), ports_(ports), events_({config.rate_hz, 1}), wall_jitter_(static_cast<std::uint64_t>(getpid())) {
@@ -41,6 +47,7 @@ void StubNode::take(const msg::Packet& packet) {
 
 SimTime StubNode::step(SimTime now) {
   events_.due(now);
+  if (now == SimTime{0}) sleep_for(config_.first_ms);
   pause_at_random();
   misbehave(now);
   for (Output& out : outs_) {
@@ -64,9 +71,7 @@ void StubNode::misbehave(SimTime now) {
 /// Disturbs the order in which messages arrive; results must not notice.
 void StubNode::pause_at_random() {
   if (config_.jitter_ms <= 0.0) return;
-  const double pause_ms = std::uniform_real_distribution<double>(0.0, config_.jitter_ms)(wall_jitter_);
-  const timespec pause{0, static_cast<long>(pause_ms * 1e6)};
-  nanosleep(&pause, nullptr);
+  sleep_for(std::uniform_real_distribution<double>(0.0, config_.jitter_ms)(wall_jitter_));
 }
 
 }  // namespace ensonify
