@@ -24,6 +24,23 @@ Extent extent_of(const LayeredSeabed& seabed) {
   return {low.x(), low.y(), high.x(), high.y()};
 }
 
+/// The posts of a block that lie on the seabed. None are made of the others.
+PostBlock within(const Extent& extent, const PostBlock& posts) {
+  const auto narrow = [](int& first, int& count, const auto& lies_within) {
+    while (count > 0 && !lies_within(first + count - 1)) --count;
+    while (count > 0 && !lies_within(first)) ++first, --count;
+  };
+  int west = 0, south = 0;
+  PostBlock inside = posts;
+  narrow(west, inside.columns,
+         [&](int i) { return posts.east_m(i) >= extent.west_m && posts.east_m(i) <= extent.east_m; });
+  narrow(south, inside.rows,
+         [&](int j) { return posts.north_m(j) >= extent.south_m && posts.north_m(j) <= extent.north_m; });
+  inside.first_east += west;
+  inside.first_north += south;
+  return inside;
+}
+
 /// The nodes of a level from the last at or before `low` to the first at or after `high`.
 Window window_around(int level, double spacing_m, const Vec2& low, const Vec2& high) {
   const double step_m = relief::node_spacing_m(spacing_m, level);
@@ -128,33 +145,39 @@ terrain::Tile LayersSource::tile_of(const Window& window) const {
 }
 
 void LayersSource::sample(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
+  const PostBlock inside = within(extent_, posts);
+  if (inside.size() == posts.size()) return make(posts, height_m, sediment);
+  std::ranges::fill(height_m, kNone);
+  std::ranges::fill(sediment, std::uint8_t{0});
+  if (inside.size() == 0) return;
+  std::vector<float> made_m(inside.size());
+  std::vector<std::uint8_t> made_sediment(inside.size());
+  make(inside, made_m, made_sediment);
+  const auto columns = static_cast<std::size_t>(inside.columns);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(inside.rows); ++row) {
+    const std::size_t to = (static_cast<std::size_t>(inside.first_north - posts.first_north) + row) *
+                               static_cast<std::size_t>(posts.columns) +
+                           static_cast<std::size_t>(inside.first_east - posts.first_east);
+    std::copy_n(&made_m[row * columns], columns, &height_m[to]);
+    std::copy_n(&made_sediment[row * columns], columns, &sediment[to]);
+  }
+}
+
+void LayersSource::make(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const {
   if (posts.spacing_m == description_.post_spacing_m) {
     fields_.seabed.fill({0, posts.first_east, posts.first_north, posts.columns, posts.rows}, height_m, sediment);
-  } else {
-    const int level =
-        std::max(0, static_cast<int>(std::floor(std::log2(posts.spacing_m / description_.post_spacing_m))));
-    const terrain::Tile tile =
-        tile_of(window_around(level, description_.post_spacing_m, {posts.east_m(0), posts.north_m(0)},
-                              {posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)}));
-    std::size_t k = 0;
-    for (int row = 0; row < posts.rows; ++row) {
-      for (int column = 0; column < posts.columns; ++column, ++k) {
-        const Vec2 place(posts.east_m(column), posts.north_m(row));
-        height_m[k] = static_cast<float>(terrain::height_m(tile, place).value_or(kNone));
-        sediment[k] = terrain::sediment_at(tile, place);
-      }
-    }
-  }
-  if (extent_.contains({posts.east_m(0), posts.north_m(0)}) &&
-      extent_.contains({posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)})) {
     return;
   }
+  const int level = std::max(0, static_cast<int>(std::floor(std::log2(posts.spacing_m / description_.post_spacing_m))));
+  const terrain::Tile tile =
+      tile_of(window_around(level, description_.post_spacing_m, {posts.east_m(0), posts.north_m(0)},
+                            {posts.east_m(posts.columns - 1), posts.north_m(posts.rows - 1)}));
   std::size_t k = 0;
   for (int row = 0; row < posts.rows; ++row) {
     for (int column = 0; column < posts.columns; ++column, ++k) {
-      if (extent_.contains({posts.east_m(column), posts.north_m(row)})) continue;
-      height_m[k] = kNone;
-      sediment[k] = 0;
+      const Vec2 place(posts.east_m(column), posts.north_m(row));
+      height_m[k] = static_cast<float>(terrain::height_m(tile, place).value_or(kNone));
+      sediment[k] = terrain::sediment_at(tile, place);
     }
   }
 }

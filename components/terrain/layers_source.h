@@ -29,6 +29,7 @@ class LayersSource : public TerrainSource {
   double height_m(const Vec2& place) const override;
 
  private:
+  void make(const PostBlock& posts, std::span<float> height_m, std::span<std::uint8_t> sediment) const;
   terrain::Tile tile_of(const relief::Window& window) const;
   void probe();
 

@@ -69,6 +69,10 @@ Posts sampled(const TerrainSource& source, const PostBlock& block) {
   return posts;
 }
 
+std::int64_t post_beyond(const Extent& extent, double spacing_m) {
+  return static_cast<std::int64_t>(extent.east_m / spacing_m) + 100;
+}
+
 struct Folder {
   std::string path =
       (std::filesystem::temp_directory_path() / ("ensonify-layers-" + std::to_string(::getpid()))).string();
@@ -157,6 +161,30 @@ TEST_CASE("every layer shows, and each can be left out without moving another") 
   CHECK(moved == 0);
   const Posts other = sampled(LayersSource(seabed_from(kMixed, 8), kOrigin), block);
   CHECK_FALSE(same(all.height_m, other.height_m));
+}
+
+TEST_CASE("a block that reaches over the seabed's edges has its posts where they are, and holes around them") {
+  const Seabed seabed = seabed_from(kMixed);
+  const LayersSource source(seabed, kOrigin);
+  const Extent extent = source.extent();
+  for (const double spacing_m : {seabed.post_spacing_m, 1.3}) {
+    const auto post = [&](double m) { return static_cast<std::int64_t>(std::floor(m / spacing_m)); };
+    const PostBlock whole{post(extent.west_m) - 9, post(extent.south_m) - 7, 40, 30, spacing_m};
+    const Posts cut = sampled(source, whole);
+    for (int row = 0; row < whole.rows; ++row) {
+      for (int column = 0; column < whole.columns; ++column) {
+        const auto k = static_cast<std::size_t>(row * whole.columns + column);
+        const PostBlock alone{whole.first_east + column, whole.first_north + row, 1, 1, spacing_m};
+        const Posts one = sampled(source, alone);
+        REQUIRE(same({&cut.height_m[k], 1}, one.height_m));
+        REQUIRE(cut.sediment[k] == one.sediment[0]);
+        REQUIRE(std::isfinite(one.height_m[0]) == extent.contains({whole.east_m(column), whole.north_m(row)}));
+      }
+    }
+  }
+  const Posts beyond = sampled(source, {post_beyond(extent, seabed.post_spacing_m), 0, 5, 4, seabed.post_spacing_m});
+  CHECK(std::ranges::all_of(beyond.height_m, [](float z) { return std::isnan(z); }));
+  CHECK(std::ranges::all_of(beyond.sediment, [](std::uint8_t s) { return s == 0; }));
 }
 
 TEST_CASE("wide spacings give a coarser level of the seabed, within the same rectangle", "[long]") {

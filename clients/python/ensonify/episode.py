@@ -57,6 +57,15 @@ def texts_of(settings: Mapping[str, Any]) -> dict:
     return dict(assignment.split("=", 1) for assignment in assignments(settings))
 
 
+def need_external(clock: str, file: Any, agent: str) -> None:
+    """A RunError where the launch does not await `agent` from outside: under the name of a process that it starts itself nobody else can join."""
+    with Observer(clock) as run:
+        external = run.ask("get", what="external")["text"].split()
+    if agent not in external:
+        raise RunError(f"{file}: agent={agent!r} is not external there; allowed, as it marks them `external: true`: {', '.join(external)}",
+                       EXIT_BAD_INPUT, agent)
+
+
 class Episode:
     """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type.
     Of the topics in `kept` it keeps so many of the newest messages."""
@@ -65,6 +74,11 @@ class Episode:
                  kept: Mapping[str, int], ports: Mapping[str, type], rate: Any, patience_s: float):
         self._settings = texts_of(settings)  # of the launch, which every epoch has
         self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
+        try:
+            need_external(self._launch.clock, file, agent)
+        except BaseException:
+            self._launch.end()
+            raise
         self._me = Participant(agent, clock=self._launch.clock, config={}, patience_s=patience_s)
         self._inputs = {topic: self._me.subscribe(topic, message_type, topics=[topic]) for topic, message_type in topics.items()}
         self._kept = {topic: collections.deque(maxlen=count) for topic, count in kept.items()}

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import warnings
 from unittest import mock
@@ -349,9 +350,21 @@ class Episodes(unittest.TestCase):
                 self.make(launch=alone).reset()
 
     def test_who_has_not_joined_is_named(self):
-        with self.assertRaisesRegex(ensonify.RunError, "^agent: has not joined; nav: the others have made no progress for 1 s$") as raised:
-            self.make(agent="nav", patience_s=1).reset(seed=1)
-        self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "agent"))
+        with tempfile.TemporaryDirectory(prefix="ens-") as folder:
+            two = pathlib.Path(folder) / "two.yaml"
+            two.write_text(LAUNCH.read_text().replace("  agent: {", "  friend: { external: true }\n  agent: {"))
+            with self.assertRaisesRegex(ensonify.RunError, "^friend: has not joined; agent: the others have made no progress for 1 s$") as raised:
+                self.make(launch=two, patience_s=1).reset(seed=1)
+        self.assertEqual((raised.exception.code, raised.exception.culprit), (4, "friend"))
+
+    def test_an_agent_that_the_launch_starts_itself_is_refused_at_once(self):
+        for name in ("nav", "nobody"):
+            began = time.monotonic()
+            with self.assertRaises(ensonify.RunError) as raised:
+                self.make(agent=name).reset(seed=1)
+            self.assertLess(time.monotonic() - began, 20)  # patience_s is 300
+            self.assertEqual((raised.exception.code, raised.exception.culprit), (2, name))
+            self.assertEqual(str(raised.exception), f"{LAUNCH}: agent={name!r} is not external there; allowed, as it marks them `external: true`: agent")
 
     def test_two_environments_do_not_share_a_folder(self):
         with tempfile.TemporaryDirectory(prefix="ens-") as folder:
