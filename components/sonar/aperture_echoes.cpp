@@ -54,7 +54,7 @@ const echo::Image& ApertureEchoes::beamform(const Shot& shot, const Echoed& echo
                         weighed(foreign, {}, shot.pose(), memory.foreign_gain)};
   const int rows = static_cast<int>(apertures_.patterns.receive.size());
   if (effects_.speckle) {
-    echo::form_apertures(sets, rows, design.sampled, sampling, memory.points, memory.image);
+    echo::form_apertures(sets, rows, design.sampled, sampling, memory.index, memory.image);
   } else {
     const std::array coherent{weighed_coherent(shot, echoed, memory.coherent_gain)};
     form_mean_squares(sets, std::span(coherent).first(echoed.coherent.empty() ? 0 : 1), rows, design, sampling, memory);
@@ -95,9 +95,9 @@ echo::EchoSet ApertureEchoes::weighed_coherent(const Shot& shot, const Echoed& e
 void ApertureEchoes::form_mean_squares(std::span<const echo::EchoSet> echoes, std::span<const echo::EchoSet> coherent,
                                        int rows, const ShotDesign& design, const echo::Sampling& sampling,
                                        Memory& memory) {
-  echo::form_apertures(echoes, rows, design.squared, sampling, memory.points, memory.image);
+  echo::form_apertures(echoes, rows, design.squared, sampling, memory.index, memory.image);
   if (coherent.empty()) return;
-  echo::form_apertures(coherent, rows, design.sampled, sampling, memory.points, memory.coherent);
+  echo::form_apertures(coherent, rows, design.sampled, sampling, memory.index, memory.coherent);
   for (std::size_t i = 0; i < memory.image.envelope_upa.size(); ++i)
     memory.image.envelope_upa[i] += std::norm(memory.coherent.envelope_upa[i]);
 }

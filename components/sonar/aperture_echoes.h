@@ -62,7 +62,7 @@ class ApertureEchoes {
     // Scratch.
     echo::Image coherent;
     std::vector<float> gain, coherent_gain, foreign_gain, volume_upa2;
-    echo::RowPoints points;
+    echo::TimeIndex index;
     echo::RowBackground background;
   };
 

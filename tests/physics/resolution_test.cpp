@@ -45,9 +45,9 @@ std::vector<double> receive(const std::vector<Vec3>& points_enu_m, double forwar
   }
   const double first_s = 2.0 * (kRange_m - 0.5) / kSpeed_mps;
   echo::Image image;
-  echo::RowPoints received;
+  echo::TimeIndex index;
   echo::form_apertures(std::array{echo::EchoSet{arrivals, power}}, 1, echo::SampledPulse(pulse, period_s).squared(),
-                       {first_s, period_s, static_cast<int>(2.0 / kSpeed_mps / period_s)}, received, image);
+                       {first_s, period_s, static_cast<int>(2.0 / kSpeed_mps / period_s)}, index, image);
   std::vector<double> received;
   for (const auto& p2 : image.row(0)) received.push_back(static_cast<double>(p2.real()));
   return received;

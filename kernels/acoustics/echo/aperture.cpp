@@ -10,82 +10,32 @@
 
 namespace ensonify::echo {
 
-namespace {
-
-/// First samples of arrivals begin..end - 1 of a set.
-void find_first(const EchoSet& set, const SampledPulse& pulse, const Sampling& sampling, std::size_t begin,
-                std::size_t end, std::int32_t* first) {
-  const double* const time_s = set.arrivals.time_s.data();
-  const SampledPulse::Grid samples = pulse.grid();
-  for (std::size_t i = begin; i < end; ++i)
-    first[i - begin] = samples.at((time_s[i] - sampling.start_s) / sampling.period_s).first - sampling.first;
-}
-
-/// The same arrivals as a row receives them.
-void make_points(const EchoSet& set, std::uint16_t row, const SampledPulse& pulse, const Sampling& sampling,
-                 std::size_t begin, std::size_t end, RowPoint* points) {
-  const Arrivals& all = set.arrivals;
-  const SampledPulse::Grid samples = pulse.grid();
-  const float* const gain = set.gain.empty() ? nullptr : set.gain.data() + row * all.size();
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto at = samples.at((all.time_s[i] - sampling.start_s) / sampling.period_s);
-    const float g = gain != nullptr ? gain[i] : 1.0F;
-    points[i - begin] = {at.first - sampling.first, static_cast<std::uint16_t>(at.phase), row,
-                         g * all.pressure_re_upa[i], g * all.pressure_im_upa[i]};
-  }
-}
-
-/// Every arrival for each row, in order of rows, and for one in order of sets and arrivals.
-void sort(std::span<const EchoSet> echoes, std::size_t rows, const SampledPulse& pulse, const Sampling& sampling,
-          RowPoints& points) {
-  const std::size_t each = count_arrivals(echoes);
-  /// fill(set, row, from, to, where) for points begin..end - 1.
-  const auto parts = [&](std::size_t begin, std::size_t end, const auto& fill) {
-    for (std::size_t at = begin; at < end;) {
-      const std::size_t row = at / each, row_end = std::min(end, (row + 1) * each);
-      for_sets(echoes, at - row * each, row_end - row * each,
-               [&](std::size_t number, std::size_t from, std::size_t to, std::size_t where) {
-                 fill(echoes[number], row, from, to, at - begin + where);
-               });
-      at = row_end;
-    }
-  };
-  points.set(
-      rows * each, pulse, sampling.count,
-      [&](std::size_t begin, std::size_t end, std::int32_t* first) {
-        parts(begin, end, [&](const EchoSet& set, std::size_t, std::size_t from, std::size_t to, std::size_t where) {
-          find_first(set, pulse, sampling, from, to, first + where);
-        });
-      },
-      [&](std::size_t begin, std::size_t end, RowPoint* some) {
-        parts(begin, end,
-              [&](const EchoSet& set, std::size_t row, std::size_t from, std::size_t to, std::size_t where) {
-                make_points(set, static_cast<std::uint16_t>(row), pulse, sampling, from, to, some + where);
-              });
-      });
-}
-
-}  // namespace
-
 void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPulse& pulse, const Sampling& sampling,
-                    RowPoints& points, Image& image) {
+                    TimeIndex& index, Image& image) {
   const profile::Span span(profile::Stage::kBeamform);
   for (const EchoSet& set : echoes) {
     if (!set.fits(static_cast<std::size_t>(rows))) {
       throw std::invalid_argument("apertures need one gain per row and arrival, or none");
     }
   }
-  sort(echoes, static_cast<std::size_t>(rows), pulse, sampling, points);
+  index.set(echoes, pulse, sampling);
   image.resize(rows, sampling.count);
-  tbb::parallel_for(0, points.blocks(), [&](int block) {
+  tbb::parallel_for(0, index.blocks(), [&](int block) {
     const profile::Span part(profile::Stage::kSpread);
-    const int first = block * kSamplesPerBlock;
-    const int count = std::min(kSamplesPerBlock, sampling.count - first);
+    const int first = block * TimeIndex::kBlock;
+    const int count = std::min(TimeIndex::kBlock, sampling.count - first);
     for (int row = 0; row < rows; ++row) std::fill_n(image.row(row).begin() + first, count, std::complex<float>{});
-    points.each(block, pulse, [&](const RowPoint& point, int from, std::span<const float> envelope) {
-      const std::complex<float> pressure(point.re_upa, point.im_upa);
-      std::complex<float>* sample = image.row(point.row).data() + from;
-      for (const float e : envelope) *sample++ += e * pressure;
+    index.each(block, pulse, [&](const Received& received, int from, std::span<const float> envelope) {
+      const EchoSet& set = echoes[received.set];
+      const std::size_t i = received.arrival;
+      for (int row = 0; row < rows; ++row) {
+        const std::complex<float> pressure =
+            set.gain.empty()
+                ? set.arrivals.pressure_upa(i)
+                : set.gain[static_cast<std::size_t>(row) * set.arrivals.size() + i] * set.arrivals.pressure_upa(i);
+        std::complex<float>* sample = image.row(row).data() + from;
+        for (const float e : envelope) *sample++ += e * pressure;
+      }
     });
   });
 }

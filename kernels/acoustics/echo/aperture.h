@@ -6,27 +6,19 @@
 #include <vector>
 
 #include "kernels/acoustics/echo/arrival.h"
-#include "kernels/acoustics/echo/by_time.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
+#include "kernels/acoustics/echo/time_index.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::echo {
 
-/// An arrival as an aperture receives it: all that summing needs, together in memory.
-struct RowPoint {
-  std::int32_t first;        // of its envelope (SampledPulse::Place)
-  std::uint16_t phase, row;  // of the image
-  float re_upa, im_upa;      // pressure with the aperture's gain
-};
-using RowPoints = ByTime<RowPoint>;
-
 /// Images of heads with one receive aperture per channel (sidescan, echosounder, scanning). Row r is the sum of all
 /// arrivals of all sets, each times its gain in row r. The image is resized and overwritten. Noise comes from
-/// RowBackground. The same bits for any number of threads. `points` are memory: their contents do not matter. Throws
+/// RowBackground. The same bits for any number of threads. `index` is memory: its contents do not matter. Throws
 /// std::invalid_argument for a set whose gains do not fit.
 void form_apertures(std::span<const EchoSet> echoes, int rows, const SampledPulse& pulse, const Sampling& sampling,
-                    RowPoints& points, Image& image);
+                    TimeIndex& index, Image& image);
 
 /// Sound that is there without any arrival, of single apertures. (Line arrays take Background instead.) White before
 /// the receiver's filter (SampledPulse::response), so coloured as echoes are: complex Gaussian, independent between

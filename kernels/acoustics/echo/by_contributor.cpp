@@ -4,7 +4,7 @@
 #include <limits>
 #include <map>
 
-#include "kernels/acoustics/echo/by_time.h"
+#include "kernels/acoustics/echo/time_index.h"
 
 namespace ensonify::echo {
 
@@ -36,6 +36,7 @@ std::vector<OfContributor> by_contributor(const EchoSet& set) {
 }
 
 SampleWindow window_of(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling) {
+  constexpr int kBlock = TimeIndex::kBlock;
   SampleWindow window{std::numeric_limits<int>::max(), 0};
   for (const EchoSet& set : echoes) {
     for (const double time_s : set.arrivals.time_s) {
@@ -46,8 +47,8 @@ SampleWindow window_of(std::span<const EchoSet> echoes, const SampledPulse& puls
     }
   }
   if (window.empty()) return {};
-  window.first = std::max(window.first, 0) / kSamplesPerBlock * kSamplesPerBlock;
-  window.end = std::min((window.end + kSamplesPerBlock - 1) / kSamplesPerBlock * kSamplesPerBlock, sampling.count);
+  window.first = std::max(window.first, 0) / kBlock * kBlock;
+  window.end = std::min((window.end + kBlock - 1) / kBlock * kBlock, sampling.count);
   return window;
 }
 

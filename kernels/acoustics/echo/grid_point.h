@@ -9,9 +9,9 @@
 #include <span>
 
 #include "kernels/acoustics/echo/arrival.h"
-#include "kernels/acoustics/echo/by_time.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/spreading.h"
+#include "kernels/acoustics/echo/time_index.h"
 
 namespace ensonify::echo {
 

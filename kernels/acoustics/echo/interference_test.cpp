@@ -36,9 +36,9 @@ Arrivals arrivals_of(const InterferingTransmission& interfering, const Pulse& pu
 
 std::vector<std::complex<float>> received(const InterferingTransmission& interfering) {
   const auto arrivals = arrivals_of(interfering);
-  RowPoints points;
+  TimeIndex index;
   Image image;
-  form_apertures(std::array{EchoSet{arrivals}}, 1, SampledPulse(kPulse, 25e-6), {0, 25e-6, 4000}, points, image);
+  form_apertures(std::array{EchoSet{arrivals}}, 1, SampledPulse(kPulse, 25e-6), {0, 25e-6, 4000}, index, image);
   return image.envelope_upa;
 }
 

@@ -9,11 +9,11 @@
 
 #include "kernels/acoustics/echo/arrival.h"
 #include "kernels/acoustics/echo/beam_rows.h"
-#include "kernels/acoustics/echo/by_time.h"
 #include "kernels/acoustics/echo/grid_point.h"
 #include "kernels/acoustics/echo/image.h"
 #include "kernels/acoustics/echo/pulse.h"
 #include "kernels/acoustics/echo/spreading.h"
+#include "kernels/acoustics/echo/time_index.h"
 #include "kernels/base/fft/transform.h"
 #include "kernels/base/random/stream.h"
 

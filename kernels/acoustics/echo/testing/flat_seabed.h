@@ -69,9 +69,9 @@ inline Image sidescan_mean_square(double waves) {
     gain.push_back(starboard ? float(array::line_power(waves, arrival.direction_head.x())) : 0.0F);
   }
   const SampledPulse pulse = SampledPulse(rectangular_pulse(100e-6), 50e-6).squared();
-  RowPoints points;
+  TimeIndex index;
   Image image;
-  form_apertures(std::array{EchoSet{arrivals, gain}}, 1, pulse, {0, 50e-6, 2800}, points, image);
+  form_apertures(std::array{EchoSet{arrivals, gain}}, 1, pulse, {0, 50e-6, 2800}, index, image);
   return image;
 }
 

@@ -68,10 +68,10 @@ struct Strip {
     Arrivals arrivals;
     add_direct_echoes({kFrequency, 0.07}, position_enu_m,
                       scatterers_of(cells, {pose, rays, surface_hits, source, backscatter}), receivers, arrivals);
-    RowPoints points;
+    TimeIndex index;
     Image image;
     const SampledPulse pulse(rectangular_pulse(100e-6), 50e-6);
-    form_apertures(std::array{EchoSet{arrivals}}, 1, pulse, {37.3e-3, 50e-6, 18}, points, image);  // 44.2 to 45.5 deg
+    form_apertures(std::array{EchoSet{arrivals}}, 1, pulse, {37.3e-3, 50e-6, 18}, index, image);  // 44.2 to 45.5 deg
     return image.envelope_upa;
   }
 };

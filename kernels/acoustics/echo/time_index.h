@@ -12,15 +12,12 @@
 
 namespace ensonify::echo {
 
-constexpr int kSamplesPerBlock = 32;
-
 /// Which of many rows are received when: blocks of samples that can be summed apart, each in a fixed order. A row has
-/// its `first` sample, which may lie before 0, and its `phase` between two samples (SampledPulse::Place), and all else
-/// that summing needs: what it would look up lies apart in memory.
+/// its `first` sample, which may lie before 0, and its `phase` between two samples (SampledPulse::Place).
 template <class Row>
 class ByTime {
  public:
-  static constexpr int kBlock = kSamplesPerBlock;
+  static constexpr int kBlock = 32;         // samples
   static constexpr std::size_t kRun = 256;  // rows that stay in the first cache
 
   /// Of so many rows, those that reach any of the samples, in their order. first_of(begin, end, first) writes the first
@@ -85,6 +82,18 @@ class ByTime {
   int samples_ = 0, blocks_ = 0;
   int reach_ = 0;  // how many blocks before it a row may have begun
   Partition<Row> by_block_;
+};
+
+/// Arrivals by time.
+struct Received {
+  std::int32_t first;
+  std::uint16_t phase, set;
+  std::uint32_t arrival;  // of its set
+};
+class TimeIndex : public ByTime<Received> {
+ public:
+  /// In order of sets, and within each of arrivals.
+  void set(std::span<const EchoSet> echoes, const SampledPulse& pulse, const Sampling& sampling);
 };
 
 /// Calls fill(set, begin, end, row) for the parts of sets that lie in begin..end - 1 of all of their arrivals.
