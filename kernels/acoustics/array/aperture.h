@@ -19,6 +19,10 @@ class Face {
   Face(double cosine_power, double back_loss_db)
       : cosine_power_(cosine_power), behind_(std::pow(10.0, -back_loss_db / 20.0)) {}
 
+  /// Whether the amplitude depends on the side alone, and what it is behind.
+  bool even() const { return cosine_power_ == 0.0; }
+  double behind() const { return behind_; }
+
   /// Amplitude in a direction whose cosine from the outward normal is `cos_normal`; negative is behind the face.
   double amplitude(double cos_normal) const {
     const double front = cosine_power_ == 0.0 ? 1.0 : std::pow(std::abs(cos_normal), cosine_power_);

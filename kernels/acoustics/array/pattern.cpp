@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "kernels/base/fast_math/fast_math.h"
+#include "kernels/base/isa/wide.h"
 
 namespace ensonify::array {
 namespace {
@@ -95,7 +96,9 @@ struct OnLine {
   alignas(64) Column<std::int32_t> step, inside;
   alignas(64) Column<float> before, at, after, beyond;
 
-  OnLine(const LineFactor& line, const Directions& directions) {
+  OnLine(const LineFactor& line, const Directions& directions) { find(line, directions); }
+
+  ENSONIFY_WIDE void find(const LineFactor& line, const Directions& directions) {
     const float ax = line.axis_head.x(), ay = line.axis_head.y(), az = line.axis_head.z();
     const double sin_steer = line.sin_steer, end = static_cast<double>(line.end);
     const PatternTable::Scale scale = line.table->scale();
@@ -113,17 +116,34 @@ struct OnLine {
   }
 };
 
+/// Of a face whose amplitude depends on the side alone: that, for each direction.
+void sides(const FaceFactor& face, const Directions& directions, Column<float>& out) {
+  const float nx = face.normal_head.x(), ny = face.normal_head.y(), nz = face.normal_head.z();
+  const auto behind = static_cast<float>(face.face.behind());
+  const float *const x = directions.x.data(), *const y = directions.y.data(), *const z = directions.z.data();
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    out[i] = nx * x[i] + (ny * y[i] + nz * z[i]) >= 0.0F ? 1.0F : behind;
+}
+
 /// Multiplies by one factor's amplitudes, kRun at most.
 template <class Factor>
 void times(const Factor& factor, const Directions& directions, std::span<const float> range_m,
            std::span<float> amplitude) {
-  if constexpr (std::is_same_v<Factor, LineFactor>) {
-    const OnLine on(factor, directions);
-    for (std::size_t i = 0; i < amplitude.size(); ++i) amplitude[i] *= on.amplitude(*factor.table, i).real();
-  } else {
-    for (std::size_t i = 0; i < amplitude.size(); ++i)
-      amplitude[i] *= amplitude_of(factor, directions[i], range_of(range_m, i));
-  }
+  for (std::size_t i = 0; i < amplitude.size(); ++i)
+    amplitude[i] *= amplitude_of(factor, directions[i], range_of(range_m, i));
+}
+
+void times(const LineFactor& line, const Directions& directions, std::span<const float>, std::span<float> amplitude) {
+  const OnLine on(line, directions);
+  for (std::size_t i = 0; i < amplitude.size(); ++i) amplitude[i] *= on.amplitude(*line.table, i).real();
+}
+
+void times(const FaceFactor& face, const Directions& directions, std::span<const float> range_m,
+           std::span<float> amplitude) {
+  if (!face.face.even()) return times<FaceFactor>(face, directions, range_m, amplitude);
+  alignas(64) Column<float> one;
+  sides(face, directions, one);
+  for (std::size_t i = 0; i < amplitude.size(); ++i) amplitude[i] *= one[i];
 }
 
 /// The same of powers.

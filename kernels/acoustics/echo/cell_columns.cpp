@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "kernels/base/fast_math/fast_math.h"
+#include "kernels/base/isa/wide.h"
 
 namespace ensonify::echo {
 namespace {
@@ -29,7 +30,8 @@ inline std::uint64_t cell_at(double east, double north, double up) {
 
 }  // namespace
 
-void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end, CellParts& parts) {
+ENSONIFY_WIDE void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end,
+                              CellParts& parts) {
   const double per_cell = 1.0 / cell_m;
   const auto& at = batch.hits.position_enu_m;
   const double *const x = at.x.data(), *const y = at.y.data(), *const z = at.z.data();
@@ -96,8 +98,8 @@ struct Bits {
 
 }  // namespace
 
-void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
-                   std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first) {
+ENSONIFY_WIDE void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
+                                 std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first) {
   const std::size_t count = rays.size();
   const Gathered hit(batch, rays);
   const double per_cell = 1.0 / cell_m, shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();

@@ -38,6 +38,9 @@ class CellTable {
   }
   void fetch(std::size_t slot) const { __builtin_prefetch(&at(slot), 1); }
 
+  /// The number that stands there, of this cell or of any other.
+  std::uint32_t guess(std::size_t slot) const { return at(slot).number; }
+
   /// The number of a cell whose search begins there; `next` becomes its number if it has none.
   template <class CellOf>
   std::uint32_t number(std::uint64_t cell, std::size_t slot, std::uint32_t next, const CellOf& cell_of) {

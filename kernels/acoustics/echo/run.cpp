@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "kernels/base/fast_math/fast_math.h"
+#include "kernels/base/isa/wide.h"
 
 namespace ensonify::echo {
 namespace {
@@ -27,7 +28,7 @@ ArrivalRows::ArrivalRows(Arrivals& arrivals, std::size_t first)
       z(arrivals.direction_head.z.data() + first),
       contributor(arrivals.contributor.data() + first) {}
 
-void Run::set(const Scatterers& scatterers, std::size_t first, std::size_t count) {
+ENSONIFY_WIDE void Run::set(const Scatterers& scatterers, std::size_t first, std::size_t count) {
   scatterers_ = &scatterers;
   first_ = first;
   count_ = count;
@@ -83,7 +84,7 @@ Run::Of Run::all() const {
           count_};
 }
 
-void Run::direct(const ArrivalRows& out) {
+ENSONIFY_WIDE void Run::direct(const ArrivalRows& out) {
   const float* const slowness_spm = scatterers_->slowness_spm.data() + first_;
   for (std::size_t i = 0; i < count_; ++i)  // differs from the arrival by 2 v / c of the travel time
     look_up_s_[i] = 2.0 * out_m_[i] * static_cast<double>(slowness_spm[i]);
@@ -160,7 +161,7 @@ void Run::arrive(const Of& of, const ArrivalRows& out) const {
 }
 
 /// Images of the scatterers. Returns how many have one.
-std::size_t Run::find_images(const Mirror& mirror) {
+ENSONIFY_WIDE std::size_t Run::find_images(const Mirror& mirror) {
   const double scale = mirror.scale, shift_m = (scale - 1.0) * source_enu_m_.z() + mirror.shift_m;
   for (std::size_t i = 0; i < count_; ++i) {
     const double z = scale * z_m_[i] + shift_m;
@@ -210,7 +211,7 @@ void Run::take(std::size_t images) {
              images};
 }
 
-array::Directions Run::launch(const Mirror& mirror, const Eigen::Matrix3d& head_from_enu) {
+ENSONIFY_WIDE array::Directions Run::launch(const Mirror& mirror, const Eigen::Matrix3d& head_from_enu) {
   take(find_images(mirror));
   const double *const x_m = imaged_.x_m, *const y_m = imaged_.y_m;
   const std::size_t count = imaged_.count;
@@ -225,8 +226,8 @@ array::Directions Run::launch(const Mirror& mirror, const Eigen::Matrix3d& head_
   return {first(launch_x_), first(launch_y_), first(launch_z_)};
 }
 
-void Run::by_image(const Mirror& mirror, std::span<const double> sent_upa2m2, const ArrivalRows& direct_first,
-                   const ArrivalRows& image_first) {
+ENSONIFY_WIDE void Run::by_image(const Mirror& mirror, std::span<const double> sent_upa2m2,
+                                 const ArrivalRows& direct_first, const ArrivalRows& image_first) {
   const Of& of = imaged_;
   const std::size_t count = of.count;
   const double* const out_m = of.out_m;

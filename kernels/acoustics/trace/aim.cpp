@@ -6,6 +6,7 @@
 
 #include "kernels/acoustics/trace/ground_lattice.h"
 #include "kernels/acoustics/trace/ray_distribution.h"
+#include "kernels/base/isa/wide.h"
 
 namespace ensonify::trace {
 namespace {
@@ -62,14 +63,28 @@ struct Edges {
   int along, zero;  // axes
 };
 
+/// Places, or where nothing but their number and solid angle is asked for whole blocks of them, on a lattice's axes.
+struct Places {
+  std::size_t count = 0;
+  Column first_m, second_m, share;                // of a block
+  std::array<std::uint64_t, kSome> inside, each;  // 1 where all are within the edges; how many
+
+  bool add(double first, double second, double part, bool is_inside, int places) {
+    first_m[count] = first, second_m[count] = second, share[count] = part;
+    inside[count] = is_inside ? 1 : 0, each[count] = static_cast<std::uint64_t>(places);
+    return ++count == kSome;
+  }
+};
+
 struct Directions {
   std::array<std::array<float, kSome>, 3> unit;
   Column solid_angle_sr;                    // 0 beyond the edges
   std::array<std::uint64_t, kSome> within;  // 1, or beyond the edges 0
 };
 
-void directions_to(const ToHead& to_head, const Edges& edges, const Column& first_m, const Column& second_m,
-                   const Column& share, std::size_t count, Directions& found) {
+ENSONIFY_WIDE void directions_to(const ToHead& to_head, const Edges& edges, const Places& places, Directions& found) {
+  const std::size_t count = places.count;
+  const Column &first_m = places.first_m, &second_m = places.second_m, &share = places.share;
   Column x, y, z;
   const auto coordinate = [&](int k, Column& at) {
     const double first = to_head.first[k], second = to_head.second[k], down = to_head.down[k];
@@ -92,7 +107,7 @@ void directions_to(const ToHead& to_head, const Edges& edges, const Column& firs
                left = static_cast<std::uint64_t>(y[i] * to_x < zero[i] * to_y),
                above = static_cast<std::uint64_t>(along[i] >= low * away_m),
                below = static_cast<std::uint64_t>(along[i] < high * away_m);
-    found.within[i] = right & left & above & below;
+    found.within[i] = places.inside[i] | (right & left & above & below);
     const double solid_angle_sr = block_m3 * share[i] * per_m * per_m * per_m;  // below dA / away^3
     found.solid_angle_sr[i] = found.within[i] != 0 ? solid_angle_sr : 0.0;
   }
@@ -138,29 +153,32 @@ RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const
   const double block_m3 = below_m * lattice.block_m2();
   const int along_row = forward ? 0 : 2, zero_row = forward ? 2 : 0;
   ToPlaces to_places;
-  Column first_m, second_m, share;
-  std::size_t waiting = 0;
+  Places some;
   const auto take = [&] {
-    Directions some;
-    const Edges edges{from, to, low, high, along_row, zero_row};
-    directions_to({first, second, down, head_m, block_m3}, edges, first_m, second_m, share, waiting, some);
-    const std::size_t before = to_places.rays;
-    if (rays) rays->resize(before + kSome);
-    for (std::size_t i = 0; i < waiting; ++i) {
+    Directions found;
+    directions_to({first, second, down, head_m, block_m3}, {from, to, low, high, along_row, zero_row}, some, found);
+    if (rays) rays->resize(to_places.rays + kSome);
+    for (std::size_t i = 0; i < some.count; ++i) {
       if (rays)
-        (*rays)[to_places.rays] = {{some.unit[0][i], some.unit[1][i], some.unit[2][i]},
-                                   static_cast<float>(some.solid_angle_sr[i])};
-      to_places.solid_angle_sr += some.solid_angle_sr[i];
-      to_places.rays += some.within[i];
+        (*rays)[to_places.rays] = {{found.unit[0][i], found.unit[1][i], found.unit[2][i]},
+                                   static_cast<float>(found.solid_angle_sr[i])};
+      to_places.solid_angle_sr += found.solid_angle_sr[i];
+      to_places.rays += found.within[i] * some.each[i];
     }
     if (rays) rays->resize(to_places.rays);
-    waiting = 0;
+    some.count = 0;
   };
-  lattice.within(stream_, footprint->outline_m, footprint->bulge_m,
-                 [&](double first_at, double second_at, double part_of_block) {
-                   first_m[waiting] = first_at, second_m[waiting] = second_at, share[waiting] = part_of_block;
-                   if (++waiting == kSome) take();
-                 });
+  const auto visit = [&](double first_m, double second_m, double share, bool inside) {
+    if (some.add(first_m, second_m, share, inside, 1)) take();
+  };
+  if (rays) {
+    lattice.within(stream_, footprint->outline_m, footprint->bulge_m, visit);
+  } else {
+    lattice.within(stream_, footprint->outline_m, footprint->bulge_m, visit,
+                   [&](double first_m, double second_m, int places) {
+                     if (some.add(first_m, second_m, 1.0, true, places)) take();
+                   });
+  }
   take();
   return to_places;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/base/isa/wide.h"
 #include "kernels/water/refraction/path.h"
 
 namespace ensonify::trace {
@@ -45,7 +46,7 @@ Layers::Layers(const refraction::PathTable& paths, const Band& band) {
   }
 }
 
-bool BentPacket::aim(const Source& source, const Rays& rays, std::size_t first, std::size_t count) {
+ENSONIFY_WIDE bool BentPacket::aim(const Source& source, const Rays& rays, std::size_t first, std::size_t count) {
   first_ = first;
   layer_ = 0;
   const Eigen::Matrix3d& R = source.enu_from_head;
@@ -69,7 +70,7 @@ bool BentPacket::aim(const Source& source, const Rays& rays, std::size_t first, 
   return source.paths.paths(sine, cosine, at_);
 }
 
-bool BentPacket::cross(const Source& source, Packet& packet) {
+ENSONIFY_WIDE bool BentPacket::cross(const Source& source, Packet& packet) {
   const Layers::Layer layer = source.layers[layer_];
   double least_squared = 1.0, most_sagitta = 0.0, least_left_m = source.max_length_m;
   for (std::size_t lane = 0; lane < kPacket; ++lane) {
@@ -114,7 +115,7 @@ bool BentPacket::cross(const Source& source, Packet& packet) {
   return true;
 }
 
-void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) const {
+ENSONIFY_WIDE void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) const {
   std::size_t hit = 0;
   for (std::size_t lane = 0; lane < kPacket; ++lane) {
     hit += packet.part_hit[lane] != nullptr ? 1U : 0U;
@@ -193,7 +194,7 @@ void BentPacket::note(const Source& source, const Packet& packet, Hits& hits) co
   }
 }
 
-bool BentPacket::go_on(const Source& source, const Packet& packet) {
+ENSONIFY_WIDE bool BentPacket::go_on(const Source& source, const Packet& packet) {
   const Layers::Layer layer = source.layers[layer_];
   if (++layer_ == source.layers.size()) return false;
   bool any = false;

@@ -44,4 +44,32 @@ GroundLattice::Reach GroundLattice::reach(std::span<const Vec2> outline_m, doubl
   return reach;
 }
 
+/// Between which values of the first axis all of the strip lies in the outline; low_m > high_m: nowhere.
+GroundLattice::Reach GroundLattice::inner_reach(std::span<const Vec2> outline_m, double low_m, double high_m) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  double area = 0.0, lowest = kAll, highest = -kAll;
+  for (std::size_t k = 0; k < outline_m.size(); ++k) {
+    const Vec2 &a = outline_m[k], &b = outline_m[k + 1 < outline_m.size() ? k + 1 : 0];
+    area += a.x() * b.y() - b.x() * a.y();
+    lowest = std::min(lowest, a.y()), highest = std::max(highest, a.y());
+  }
+  if (!(lowest <= low_m && high_m <= highest)) return {kAll, -kAll};
+  Reach reach{-kAll, kAll};
+  for (std::size_t k = 0; k < outline_m.size(); ++k) {
+    const Vec2 &a = outline_m[k], &b = outline_m[k + 1 < outline_m.size() ? k + 1 : 0];
+    if (std::max(a.y(), b.y()) < low_m || std::min(a.y(), b.y()) > high_m) continue;
+    const double rise = b.y() - a.y();
+    if (rise == 0.0) return {kAll, -kAll};
+    for (const double y : {a.y(), b.y()}) {
+      const double first = a.x() + (b.x() - a.x()) * (std::clamp(y, low_m, high_m) - a.y()) / rise;
+      if ((rise > 0.0) == (area > 0.0)) {  // the outline lies below it on the first axis
+        reach.high_m = std::min(reach.high_m, first);
+      } else {
+        reach.low_m = std::max(reach.low_m, first);
+      }
+    }
+  }
+  return reach;
+}
+
 }  // namespace ensonify::trace

@@ -27,20 +27,37 @@ class GroundLattice {
   double block_m2() const { return 4.0 * first_m_ * second_m_; }
   frames::Vec2 second_axis_enu() const { return {-first_axis_.y(), first_axis_.x()}; }
 
-  /// visit(first_m, second_m, share), on the lattice's axes, with the share of its block that is a place's, for every
-  /// place within a convex outline (on these axes too) that is grown by margin_m, and for some more around it; always
-  /// in the same order. A place is a function of (stream, lattice, block).
+  /// visit(first_m, second_m, share, inside), on the lattice's axes, with the share of its block that is a place's, for
+  /// every place within a convex outline (on these axes too) that is grown by margin_m, and for some more around it;
+  /// always in the same order. Those `inside` are in the outline even when it shrinks by the margin. A place is a
+  /// function of (stream, lattice, block).
   template <class Visit>
   void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
               const Visit& visit) const;
+  /// The same of places that are not inside; of the others block(first_m, second_m, places) says where the middle of
+  /// their block is, and how many it has.
+  template <class Visit, class Block>
+  void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+              const Visit& visit, const Block& block) const;
 
  private:
   struct Reach {
     double low_m, high_m;
   };
   static Reach reach(std::span<const frames::Vec2> outline_m, double low_m, double high_m);
+  static Reach inner_reach(std::span<const frames::Vec2> outline_m, double low_m, double high_m);
+  /// Blocks first..end - 1 of a row; those from inner to inner_end - 1 are inside.
+  struct BlockRow {
+    std::int64_t row, first, inner, inner_end, end;
+  };
   template <class Visit>
-  void visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second,
+  void each_row(std::span<const frames::Vec2> outline_m, double margin_m, const Visit& visit) const;
+  random::Row bits(const random::Stream& stream, const BlockRow& blocks) const {
+    return {stream, (static_cast<std::uint64_t>(blocks.row) << 20) ^ name_};
+  }
+  int places(double block_first, double block_second) const;
+  template <class Visit>
+  void visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second, bool inside,
                    const Visit& visit) const;
 
   frames::Vec2 first_axis_;
@@ -53,13 +70,17 @@ inline frames::Vec2 GroundLattice::on_axes(const frames::Vec2& place_enu) const 
   return {first_axis_.dot(place_enu), second_axis_enu().dot(place_enu)};
 }
 
+/// Blocks with one place more lie evenly among the others: the additive recurrence of the plastic number
+/// [Roberts2018].
+inline int GroundLattice::places(double block_first, double block_second) const {
+  const double turn = 0.7548776662466927 * block_first + 0.5698402909980532 * block_second;
+  return static_cast<int>(places_per_block_ + (turn - std::floor(turn)));
+}
+
 template <class Visit>
 void GroundLattice::visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second,
-                                const Visit& visit) const {
-  // Blocks with one place more lie evenly among the others: the additive recurrence of the plastic number
-  // [Roberts2018].
-  const double turn = 0.7548776662466927 * block_first + 0.5698402909980532 * block_second;
-  const int places = static_cast<int>(places_per_block_ + (turn - std::floor(turn)));
+                                bool inside, const Visit& visit) const {
+  const int places = this->places(block_first, block_second);
   // Of each word one cell's place, in the middle half of it, from the low bits; the order of cells from the top ones.
   const std::uint32_t first = bits[2] >> 30, third = bits[2] >> 29 & 1U ? 1U : 2U;
   const std::array<std::uint32_t, 4> order{first, first ^ 3U, first ^ third, first ^ third ^ 3U};  // diagonals first
@@ -67,27 +88,63 @@ void GroundLattice::visit_block(const std::array<std::uint32_t, 4>& bits, double
   for (int k = 0; k < places; ++k) {
     const std::uint32_t cell = order[static_cast<std::size_t>(k)], word = bits[cell];
     visit(first_m_ * (2.0 * block_first + (cell & 1U) + 0.25 + 0x1p-14 * (word & 0x1fff)),
-          second_m_ * (2.0 * block_second + (cell >> 1) + 0.25 + 0x1p-14 * (word >> 13 & 0x1fff)), share);
+          second_m_ * (2.0 * block_second + (cell >> 1) + 0.25 + 0x1p-14 * (word >> 13 & 0x1fff)), share, inside);
   }
 }
 
 template <class Visit>
-void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
-                           const Visit& visit) const {
+void GroundLattice::each_row(std::span<const frames::Vec2> outline_m, double margin_m, const Visit& visit) const {
   double low = outline_m[0].y(), high = low;
   for (const frames::Vec2& corner : outline_m) low = std::min(low, corner.y()), high = std::max(high, corner.y());
   const double per_first = 0.5 / first_m_, per_second = 0.5 / second_m_;
   const auto last_row = static_cast<std::int64_t>(std::floor((high + margin_m) * per_second));
   for (auto j = static_cast<std::int64_t>(std::floor((low - margin_m) * per_second)); j <= last_row; ++j) {
     const auto second = static_cast<double>(j);
-    const Reach row = reach(outline_m, second / per_second - margin_m, (second + 1.0) / per_second + margin_m);
+    const double from_m = second / per_second - margin_m, to_m = (second + 1.0) / per_second + margin_m;
+    const Reach row = reach(outline_m, from_m, to_m);
     if (!(row.low_m <= row.high_m)) continue;
     const auto end = static_cast<std::int64_t>(std::floor((row.high_m + margin_m) * per_first)) + 1;
-    const random::Row bits(stream, (static_cast<std::uint64_t>(j) << 20) ^ name_);
-    for (auto i = static_cast<std::int64_t>(std::floor((row.low_m - margin_m) * per_first)); i < end; ++i) {
-      visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), second, visit);
+    BlockRow blocks{j, static_cast<std::int64_t>(std::floor((row.low_m - margin_m) * per_first)), end, end, end};
+    const Reach inner = inner_reach(outline_m, from_m, to_m);
+    const double inner_first = std::ceil((inner.low_m + margin_m) * per_first),
+                 inner_end = std::floor((inner.high_m - margin_m) * per_first);
+    if (inner_first < inner_end) {
+      blocks.inner = static_cast<std::int64_t>(inner_first);
+      blocks.inner_end = static_cast<std::int64_t>(inner_end);
     }
+    visit(blocks);
   }
+}
+
+template <class Visit>
+void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+                           const Visit& visit) const {
+  each_row(outline_m, margin_m, [&](const BlockRow& blocks) {
+    const random::Row bits = this->bits(stream, blocks);
+    for (std::int64_t i = blocks.first; i < blocks.end; ++i) {
+      visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), static_cast<double>(blocks.row),
+                  blocks.inner <= i && i < blocks.inner_end, visit);
+    }
+  });
+}
+
+template <class Visit, class Block>
+void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+                           const Visit& visit, const Block& block) const {
+  each_row(outline_m, margin_m, [&](const BlockRow& blocks) {
+    const random::Row bits = this->bits(stream, blocks);
+    const auto second = static_cast<double>(blocks.row);
+    const auto visit_blocks = [&](std::int64_t from, std::int64_t to) {
+      for (std::int64_t i = from; i < to; ++i)
+        visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), second, false, visit);
+    };
+    visit_blocks(blocks.first, blocks.inner);
+    for (std::int64_t i = blocks.inner; i < blocks.inner_end; ++i) {
+      const auto first = static_cast<double>(i);
+      block(first_m_ * (2.0 * first + 1.0), second_m_ * (2.0 * second + 1.0), places(first, second));
+    }
+    visit_blocks(blocks.inner_end, blocks.end);
+  });
 }
 
 }  // namespace ensonify::trace

@@ -1,5 +1,6 @@
 #include "kernels/acoustics/trace/ground_lattice.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -20,7 +21,7 @@ static Places places(const GroundLattice& lattice, double half_first_m, double h
                                   {12 + half_first_m, -7 + half_second_m},
                                   {12 - half_first_m, -7 + half_second_m}};
   Places found;
-  lattice.within(Stream{seed, "rays"}, outline, 0.0, [&](double x, double y, double) {
+  lattice.within(Stream{seed, "rays"}, outline, 0.0, [&](double x, double y, double, bool) {
     if (std::abs(x - 12) < half_first_m && std::abs(y + 7) < half_second_m) REQUIRE(found.emplace(x, y).second);
   });
   return found;
@@ -88,13 +89,55 @@ TEST_CASE("outlines in any position, slivers and points, are covered") {
   };
   int expected = 0, found = 0;
   for (const auto& [x, y] : places(lattice, 3, 3)) expected += inside(x, y);
-  lattice.within({1, "rays"}, triangle, 0.0, [&](double x, double y, double) { found += inside(x, y); });
+  lattice.within({1, "rays"}, triangle, 0.0, [&](double x, double y, double, bool) { found += inside(x, y); });
   CHECK(expected > 10);
   CHECK(found == expected);
   int around = 0;
   lattice.within({1, "rays"}, std::vector<Vec2>{{12, -7}, {12, -7}, {12, -7}}, 0.3,
-                 [&](double x, double y, double) { around += std::hypot(x - 12, y + 7) < 0.3; });
+                 [&](double x, double y, double, bool) { around += std::hypot(x - 12, y + 7) < 0.3; });
   int near = 0;
   for (const auto& [x, y] : places(lattice, 1, 1)) near += std::hypot(x - 12, y + 7) < 0.3;
   CHECK(around == near);
+}
+
+TEST_CASE("blocks inside have the places that are visited one by one, all within the outline less the margin") {
+  // A part's outline: two straight sides, two that are bent (one of them inwards), either way round.
+  std::vector<Vec2> outline{{10, -9}, {12.1, -8.8}, {14, -9.2}, {13.8, -5}, {12, -5.3}, {10.3, -5.1}};
+  constexpr double kMargin_m = 0.15;
+  const auto inside = [&](double x, double y) {  // by crossings of the sides
+    bool in = false;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const Vec2 &a = outline[k], &b = outline[(k + 1) % outline.size()];
+      if ((a.y() > y) != (b.y() > y) && x < a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y())) in = !in;
+    }
+    return in;
+  };
+  for (int way = 0; way < 2; ++way) {
+    for (const Vec2& along : {Vec2(1, 0), Vec2(0.4, 1), Vec2(-1, 1)}) {
+      const GroundLattice lattice(along, 0.07, 0.1);
+      std::vector<Vec2> on_axes;
+      for (const Vec2& corner : outline) on_axes.push_back(lattice.on_axes(corner));
+      int all = 0, in_blocks = 0, beside = 0, counted = 0;
+      lattice.within({1, "rays"}, on_axes, kMargin_m, [&](double x, double y, double, bool is_inside) {
+        ++all;
+        if (!is_inside) return;
+        ++in_blocks;
+        const Vec2 at = x * lattice.first_axis_enu() + y * lattice.second_axis_enu();
+        for (const Vec2& off : {Vec2(kMargin_m, 0), Vec2(-kMargin_m, 0), Vec2(0, kMargin_m), Vec2(0, -kMargin_m)})
+          REQUIRE(
+              inside(at.x() + 0.7 * off.x(), at.y() + 0.7 * off.y()));  // sides stand at up to 45 degrees to the axes
+      });
+      lattice.within(
+          {1, "rays"}, on_axes, kMargin_m,
+          [&](double, double, double, bool is_inside) {
+            REQUIRE_FALSE(is_inside);
+            ++beside;
+          },
+          [&](double, double, int places) { counted += places; });
+      CHECK(in_blocks > all / 2);
+      CHECK(counted == in_blocks);
+      CHECK(beside + counted == all);
+    }
+    std::ranges::reverse(outline);
+  }
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "kernels/base/fast_math/fast_math.h"
+#include "kernels/base/isa/wide.h"
 #include "kernels/base/random/stream.h"
 
 namespace ensonify::random {
@@ -30,7 +31,7 @@ void philox(std::uint64_t key, Stream::Run& counters) {
 
 }  // namespace
 
-void Stream::run(std::uint64_t a, std::uint64_t b, Run& out) const {
+ENSONIFY_WIDE void Stream::run(std::uint64_t a, std::uint64_t b, Run& out) const {
   auto& [c0, c1, c2, c3] = out.word;
   for (std::size_t i = 0; i < kBlocks; ++i) {
     c0[i] = static_cast<std::uint32_t>(a);
@@ -41,7 +42,7 @@ void Stream::run(std::uint64_t a, std::uint64_t b, Run& out) const {
   philox(key_ ^ mix(0), out);
 }
 
-void Stream::run(std::span<const std::uint64_t, Run::kSize> a, Run& out) const {
+ENSONIFY_WIDE void Stream::run(std::span<const std::uint64_t, Run::kSize> a, Run& out) const {
   auto& [c0, c1, c2, c3] = out.word;
   for (std::size_t i = 0; i < kBlocks; ++i) {
     c0[i] = static_cast<std::uint32_t>(a[i]);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "kernels/base/isa/wide.h"
 #include "kernels/water/refraction/path.h"
 
 namespace ensonify::refraction {
@@ -103,7 +104,8 @@ void PathTable::build(const SoundSpeedProfile& profile, double source_depth_m, d
   }
 }
 
-bool PathTable::paths(const LevelPaths::Column& sine, const LevelPaths::Column& cosine, LevelPaths& found) const {
+ENSONIFY_WIDE bool PathTable::paths(const LevelPaths::Column& sine, const LevelPaths::Column& cosine,
+                                    LevelPaths& found) const {
   constexpr std::size_t kLanes = LevelPaths::kLanes;
   LevelPaths::Column w2;
   double flattest = 1.0, upmost = 1.0;
@@ -114,17 +116,31 @@ bool PathTable::paths(const LevelPaths::Column& sine, const LevelPaths::Column& 
   }
   if (intervals_.empty() || !(upmost > 0.0) || !(flattest >= kFlattest * kFlattest)) return false;
 
-  LevelPaths::Column per_w, reach_slope;
+  LevelPaths::Column w, per_w, reach_slope;
+  std::array<std::uint64_t, kLanes> index;
+  std::uint64_t first = kIntervals, last = 0;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const double w = std::sqrt(w2[lane]);
-    const std::uint64_t index = std::min((std::bit_cast<std::uint64_t>(w) >> kShift) - kFirst, kIntervals - 1);
-    const Interval& in = intervals_[index];
-    const double u = (w - in.low) * in.per_width;
-    per_w[lane] = 1.0 / w;
-    found.time_s[lane] = in.time.value(u);
-    found.length_m[lane] = in.length.value(u);
-    found.reach_m2ps[lane] = in.reach.value(u);
-    reach_slope[lane] = in.per_width * in.reach.slope(u);
+    w[lane] = std::sqrt(w2[lane]);
+    per_w[lane] = 1.0 / w[lane];
+    index[lane] = std::min((std::bit_cast<std::uint64_t>(w[lane]) >> kShift) - kFirst, kIntervals - 1);
+    first = std::min(first, index[lane]);
+    last = std::max(last, index[lane]);
+  }
+  const auto look_up = [&](const auto& interval_of) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const Interval& in = interval_of(lane);
+      const double u = (w[lane] - in.low) * in.per_width;
+      found.time_s[lane] = in.time.value(u);
+      found.length_m[lane] = in.length.value(u);
+      found.reach_m2ps[lane] = in.reach.value(u);
+      reach_slope[lane] = in.per_width * in.reach.slope(u);
+    }
+  };
+  if (first == last) {  // as of rays that lie close together: nothing to gather
+    const Interval same = intervals_[first];
+    look_up([&same](std::size_t) -> const Interval& { return same; });
+  } else {
+    look_up([&](std::size_t lane) -> const Interval& { return intervals_[index[lane]]; });
   }
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const double p = cosine[lane] * source_slowness_spm_, p2 = p * p;
