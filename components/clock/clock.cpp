@@ -70,7 +70,7 @@ std::optional<WallTime> Clock::next_alarm() const {
 void Clock::on_message(const bus::Router::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);
-  if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "bye")
+  if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "unusable" && kind != "bye")
     return on_request(message, kind);
   const auto rank = registry_.participant(message.from);
   if (!rank) return refuse(message.from, kind, "only for processes that have joined the run");
@@ -95,6 +95,8 @@ void Clock::on_word(std::size_t rank, const std::string& kind, const std::string
     if (phase_ == Phase::kProving && registry_.ready()) start();
   } else if (kind == "failed") {
     on_failed(rank, protocol::read_failed(text));
+  } else if (kind == "unusable") {
+    on_unusable(rank, protocol::read_unusable(text));
   } else if (phase_ == Phase::kEnding) {
     left_[rank] = true;
   } else {
@@ -178,7 +180,7 @@ void Clock::hand_out() {
     ++epoch_.accounts[grant.participant].grants;
     router_.send(epoch_.accounts[grant.participant].name, protocol::encode(message));
   }
-  if (!epoch_.conductor->finished()) return;
+  if (!epoch_.conductor->finished() || lose_doomed()) return;
   if (next_) begin_next();
   else end(0);
 }
@@ -214,7 +216,7 @@ void Clock::on_done(std::size_t rank, const protocol::Done& done) {
                   fmt::format("{} made the run {:.3f} s late; slip_policy is fail", name, seconds(slipped)));
     }
   }
-  hand_out();
+  if (!lose_stopped(rank)) hand_out();
 }
 
 /// Who has ports for viewers works for them only while nobody waits for it.

@@ -27,6 +27,7 @@ struct Account {
   std::uint64_t late_events = 0;  // grants it finished last, more than kLateAfter behind the paced time
   SimTime worst_lateness{0};
   bool late = false;   // by its last grant, of which it hears if it has ports for viewers
+  std::string doomed;  // why it is to be lost at a time to come; "": it is not
   std::string lost;    // why the run goes on without it; "": it takes part
   SimTime lost_at{0};  // before which its last event is
 };
@@ -97,6 +98,7 @@ class Clock {
   void on_proven(const std::string& from, const std::string& text);
   void on_done(std::size_t rank, const protocol::Done& done);
   void on_failed(std::size_t rank, const protocol::Failed& failed);
+  void on_unusable(std::size_t rank, const protocol::Unusable& unusable);
   void on_request(const bus::Router::Message& message, const std::string& kind);
   // Each returns what is wrong with the request, or "".
   std::string ask_reset(const nlohmann::json& request, nlohmann::json& answer);
@@ -117,6 +119,8 @@ class Clock {
   void fail(int code, const std::string& culprit, const std::string& message);
   void fault(std::size_t rank, int code, const std::string& message);
   bool lose(std::size_t rank, const std::string& why);
+  bool lose_stopped(std::size_t rank);
+  bool lose_doomed();
   bool is_lost(std::size_t rank) const { return rank < epoch_.accounts.size() && !epoch_.accounts[rank].lost.empty(); }
   void end(int code);
   void send_to_all(const std::string& text);

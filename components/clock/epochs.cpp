@@ -55,6 +55,8 @@ std::string Clock::ask_reset(const json& request, json& answer) {
   if (const auto fixed = registry_.fixed(); !fixed.empty())
     return joined(fixed) + ": cannot begin another epoch; only a new launch resets it";
   for (const Account& account : epoch_.accounts) {
+    if (!account.doomed.empty())
+      return fmt::format("{}: is about to be lost; only a new launch resets it", account.name);
     if (!account.lost.empty())
       return fmt::format("{}: was lost at t={:.3f} s; only a new launch resets it", account.name,
                          seconds(account.lost_at));

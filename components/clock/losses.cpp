@@ -39,6 +39,40 @@ bool Clock::lose(std::size_t rank, const std::string& why) {
   return true;
 }
 
+/// A reader goes on without its message. A window after the event that was to have it nobody can have seen anything
+/// yet: there the sender stops, at a sim time that is the same in every run, whenever the reader came to notice.
+void Clock::on_unusable(std::size_t rank, const protocol::Unusable& unusable) {
+  const protocol::Failed& why = unusable.why;
+  const auto culprit = registry_.participant(why.culprit);
+  if (!culprit || !registry_.feeds(*culprit, rank))
+    throw std::runtime_error("culprit: " + why.culprit + " is none whose messages it takes");
+  if (!launch_.process(why.culprit).may_be_lost) return on_failed(rank, why);
+  if (phase_ != Phase::kRunning || next_ || is_lost(*culprit)) return;
+  Account& account = epoch_.accounts[*culprit];
+  if (account.doomed.empty()) {
+    account.doomed = why.message;
+    log::line("clock", unusable.at, "unusable", fmt::format("process={} why=\"{}\"", why.culprit, why.message));
+  }
+  const SimTime window = from_seconds(launch_.clock.window_s);
+  epoch_.conductor->stop_before(*culprit, saturating_add(saturating_add(unusable.at, window), SimTime{1}));
+  lose_stopped(*culprit);
+}
+
+/// One whose messages cannot be used has come to where it is to stop.
+bool Clock::lose_stopped(std::size_t rank) {
+  const std::string& doomed = epoch_.accounts[rank].doomed;
+  return !doomed.empty() && !is_lost(rank) && epoch_.conductor->stopped(rank) && lose(rank, doomed);
+}
+
+/// The run ends before they have come there.
+bool Clock::lose_doomed() {
+  for (std::size_t rank = 0; rank < epoch_.accounts.size(); ++rank) {
+    const std::string& doomed = epoch_.accounts[rank].doomed;
+    if (!doomed.empty() && !is_lost(rank)) return lose(rank, doomed);
+  }
+  return false;
+}
+
 /// The launcher sees who dies; to the clock a process that is gone is silent.
 std::string Clock::ask_to_lose(const nlohmann::json& request, nlohmann::json& answer) {
   const nlohmann::json process = request.value("process", nlohmann::json());

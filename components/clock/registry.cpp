@@ -30,6 +30,10 @@ void Registry::begin(const Launch& launch, std::uint32_t epoch) {
   places_ = process_places(launch);
   facts_ = facts_of(launch);
   if (launch.clock.rate) facts_[kPacedFact] = "true";
+  may_be_lost_.clear();
+  for (const ProcessSpec& process : launch.processes) {
+    if (process.may_be_lost) may_be_lost_.insert(process.name);
+  }
   patience_s_ = kPatienceInDeadlines * launch.clock.progress_deadline_s;
   declarations_.clear();
   graph_ = {};
@@ -123,7 +127,8 @@ protocol::Welcome Registry::welcome(std::size_t rank) const {
       if (graph_.edges[e].topic == t) tokens.push_back(token_of(e));
     }
   }
-  for (const Feed& feed : feeds_of(graph_, declarations_, rank)) {
+  for (Feed feed : feeds_of(graph_, declarations_, rank)) {
+    feed.may_be_lost = may_be_lost_.contains(feed.publisher);
     for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
       const Graph::Edge& edge = graph_.edges[e];
       if (edge.to != rank || edge.topic != feed.topic_id || edge.in_port != feed.in_index) continue;

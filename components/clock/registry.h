@@ -69,6 +69,7 @@ class Registry {
   std::map<std::string, std::string> unproven_;  // token, publisher
   std::set<std::size_t> unready_;                // ranks
   std::map<std::string, std::string> facts_;
+  std::set<std::string> may_be_lost_;
   double patience_s_ = 0.0;
 };
 

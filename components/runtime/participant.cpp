@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "components/errors/exit_error.h"
@@ -93,11 +94,13 @@ class Participant {
     patience_ = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * w.patience_s));
     std::vector<Feed> feeds;
     std::vector<bus::Subscription> subscriptions;
+    may_be_lost_.clear();
     for (const protocol::WelcomeIn& in : w.ins) {
       const Feed& c = in.feed;
       feeds.push_back(c);
-      subscriptions.push_back(
-          {c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes, c.publisher, c.rank, c.rate});
+      subscriptions.push_back({c.topic, c.topic_id, c.type, in.endpoint, in.token, c.max_bytes, c.publisher, c.rank,
+                               c.rate, c.may_be_lost});
+      if (c.may_be_lost) may_be_lost_.insert(c.topic_id);
     }
     session_->stepper().wire(std::move(feeds), std::move(w.outs), std::move(w.facts), w.epoch, w.rank,
                              [this](msg::Packet&& packet) { link_.publish(packet); },
@@ -128,9 +131,10 @@ class Participant {
     Stepper& stepper = session_->stepper();
     link_.wait_arrived(grant.inputs, patience_, [this] { hear(); });
     for (const msg::Packet& packet : counted_in(grant)) {
-      if (stepper.too_late(packet)) throw broken_promise(packet);
-      stepper.insert(packet);
+      if (stepper.too_late(packet)) refuse(packet);
+      else stepper.insert(packet);
     }
+    for (const bus::Unusable& topic : link_.take_unusable()) stepper.close(topic.topic_id, topic.t, topic.why);
     const auto begin = std::chrono::steady_clock::now();
     protocol::Done done;
     std::optional<InjectedKill> killed;
@@ -139,6 +143,8 @@ class Participant {
     } catch (const InjectedKill& kill) {
       killed = kill;  // the events before that one have been run
     }
+    for (const auto& [at, why] : stepper.take_unusable())
+      link_.send_control(protocol::encode(protocol::Unusable{at, {why.code, why.what(), why.culprit}}));
     link_.flush();
     done.cost_ns = (std::chrono::steady_clock::now() - begin).count();
     link_.expect_until(saturating_add(stepper.next(), kLongestWindow));
@@ -176,11 +182,14 @@ class Participant {
     return packets;
   }
 
-  PeerError broken_promise(const msg::Packet& packet) const {
+  /// It breaks a promise.
+  void refuse(const msg::Packet& packet) {
     const std::string publisher = packet.topic.substr(0, packet.topic.find('/'));
-    return broken_message(
-        publisher, packet.topic, packet.envelope.seq,
-        fmt::format("t_sim: {} ns is before the `next` of an earlier DONE", packet.envelope.t_sim_ns));
+    const PeerError why =
+        broken_message(publisher, packet.topic, packet.envelope.seq,
+                       fmt::format("t_sim: {} ns is before the `next` of an earlier DONE", packet.envelope.t_sim_ns));
+    if (!may_be_lost_.contains(packet.envelope.topic_id)) throw PeerError(why);
+    session_->stepper().close(packet.envelope.topic_id, SimTime{packet.envelope.t_sim_ns}, why);
   }
 
   int refused(const std::string& text) {
@@ -208,8 +217,9 @@ class Participant {
   OpenSession open_;
   std::unique_ptr<Session> session_;
   bus::Link link_;
-  std::vector<msg::Packet> early_;  // of the epoch
-  std::deque<std::string> heard_;   // of the clock, out of turn
+  std::vector<msg::Packet> early_;       // of the epoch
+  std::set<std::uint32_t> may_be_lost_;  // topics
+  std::deque<std::string> heard_;        // of the clock, out of turn
   std::uint32_t epoch_ = 1;
   int exit_code_ = kExitOk;  // of the first epoch that has one
   std::chrono::milliseconds patience_{0};

@@ -68,7 +68,8 @@ struct Feed {
   std::uint32_t rank = 0;  // of the publisher in the launch file
   SimTime delay{0};
   std::size_t max_bytes = 0;
-  Rate rate;  // highest that the publisher declared
+  Rate rate;                 // highest that the publisher declared
+  bool may_be_lost = false;  // the run can go on without its publisher
 };
 
 /// What carries messages to viewers; empty where there is none. What it says depends on wall time: nothing else that a

@@ -203,6 +203,21 @@ json parse(std::string_view text) {
   return j;
 }
 
+std::string dumped(const json& j) { return j.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json to_json(const Failed& failed, const char* kind) {
+  json j{{"kind", kind}, {"code", failed.code}, {"message", failed.message}};
+  if (!failed.culprit.empty()) j["culprit"] = failed.culprit;
+  return j;
+}
+
+Failed failed_in(const json& j) {
+  Failed failed{field<int>(j, "code"), field<std::string>(j, "message", ""), field<std::string>(j, "culprit", "")};
+  if (failed.code < kExitUserError || failed.code > kExitDiffer)
+    throw std::runtime_error("code: " + std::to_string(failed.code) + " is not an exit code of a failure, 2 to 6");
+  return failed;
+}
+
 }  // namespace
 
 std::string declaration_json(const Declaration& declaration) { return to_json(declaration).dump(); }
@@ -257,6 +272,7 @@ std::string encode(const Welcome& w, const Declaration& declaration) {
                   {"rate", {c.rate.num, c.rate.den}},
                   {"endpoint", i.endpoint},
                   {"token", i.token}});
+    if (c.may_be_lost) in.back()["may_be_lost"] = true;
   }
   return json{{"kind", "welcome"}, {"epoch", w.epoch}, {"rank", w.rank},  {"patience_s", w.patience_s},
               {"out", out},        {"in", in},         {"facts", w.facts}}
@@ -288,6 +304,7 @@ Welcome read_welcome(std::string_view text, const std::vector<OutPort>& outs, co
     in.feed.delay = SimTime{i.at("delay_ns").get<std::int64_t>()};
     in.feed.max_bytes = i.at("max_bytes");
     in.feed.rate = {i.at("rate").at(0), i.at("rate").at(1)};
+    in.feed.may_be_lost = i.value("may_be_lost", false);
     in.endpoint = i.at("endpoint");
     in.token = i.at("token");
     w.ins.push_back(std::move(in));
@@ -319,17 +336,16 @@ std::string kind_of(std::string_view text) {
   return j["kind"];
 }
 
-std::string encode_failed(const Failed& failed) {
-  json j{{"kind", "failed"}, {"code", failed.code}, {"message", failed.message}};
-  if (!failed.culprit.empty()) j["culprit"] = failed.culprit;
-  return j.dump(-1, ' ', false, json::error_handler_t::replace);
+std::string encode_failed(const Failed& failed) { return dumped(to_json(failed, "failed")); }
+Failed read_failed(std::string_view text) { return failed_in(parse(text)); }
+std::string encode(const Unusable& unusable) {
+  json j = to_json(unusable.why, "unusable");
+  j["t_ns"] = unusable.at.count();
+  return dumped(j);
 }
-Failed read_failed(std::string_view text) {
+Unusable read_unusable(std::string_view text) {
   const json j = parse(text);
-  Failed failed{field<int>(j, "code"), field<std::string>(j, "message", ""), field<std::string>(j, "culprit", "")};
-  if (failed.code < kExitUserError || failed.code > kExitDiffer)
-    throw std::runtime_error("code: " + std::to_string(failed.code) + " is not an exit code of a failure, 2 to 6");
-  return failed;
+  return {SimTime{field<std::int64_t>(j, "t_ns")}, failed_in(j)};
 }
 std::string encode_proven(const std::vector<std::string>& tokens) {
   return json{{"kind", "proven"}, {"tokens", tokens}}.dump();

@@ -70,6 +70,12 @@ struct Failed {
   std::string culprit;  // the process whose message could not be used; "": its own doing
 };
 
+/// A reader takes nothing more of a topic, since its event at `at`: its publisher, which the run may lose, is to go.
+struct Unusable {
+  SimTime at{0};
+  Failed why;
+};
+
 /// Ports as the JSON that `--check` prints and HELLO carries, and back. Reading throws std::runtime_error naming the
 /// key.
 std::string declaration_json(const Declaration& declaration);
@@ -100,6 +106,9 @@ std::string read_lost(std::string_view json);
 /// {"kind":"failed","code":..,"message":..,"culprit":..}
 std::string encode_failed(const Failed& failed);
 Failed read_failed(std::string_view json);
+/// {"kind":"unusable","t_ns":..,"code":..,"message":..,"culprit":..}
+std::string encode(const Unusable& unusable);
+Unusable read_unusable(std::string_view json);
 /// {"kind":"proven","tokens":[..]}
 std::string encode_proven(const std::vector<std::string>& tokens);
 std::vector<std::string> read_tokens(std::string_view json);

@@ -115,6 +115,15 @@ TEST_CASE("a HELLO with a wrong field is refused, and the field named") {
   refused(hello("", "{" + port + R"(,"topics":[1]})", ""), "in[0].topics: is not a list of texts");
 }
 
+TEST_CASE("what a reader cannot use is a failure of its sender, with the event that notices") {
+  const auto back = protocol::read_unusable(protocol::encode(protocol::Unusable{100_ms, {3, "no msgpack", "agent"}}));
+  CHECK(back.at == 100_ms);
+  CHECK(back.why.code == 3);
+  CHECK(back.why.message == "no msgpack");
+  CHECK(back.why.culprit == "agent");
+  CHECK_THROWS_WITH(protocol::read_unusable(R"({"kind":"unusable","code":3,"culprit":"agent"})"), "t_ns: is missing");
+}
+
 TEST_CASE("a failure has a failure's code, or is none") {
   const auto back = protocol::read_failed(protocol::encode_failed({5, "gone", "agent"}));
   CHECK(back.code == 5);

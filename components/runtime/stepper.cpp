@@ -20,6 +20,7 @@ void Stepper::wire(std::vector<Feed> feeds, std::vector<OutTopic> outs, std::map
   limits_.clear();
   for (const OutPort& out : ports_.outs()) limits_.emplace_back(out.rate);
   inlets_.clear();
+  unusable_.clear();
   for (const Feed& feed : feeds) inlets_.push_back({feed, 0, {}});
   const auto publish_it = [this](std::size_t out, msg::Body body, msg::Buffer wall) {
     publish(out, std::move(body), std::move(wall));
@@ -42,11 +43,18 @@ LivePlane Stepper::live_plane() {
 
 void Stepper::insert(const msg::Packet& packet) {
   for (Inlet& inlet : inlets_) {
-    if (inlet.from.topic_id != packet.envelope.topic_id) continue;
+    if (inlet.from.topic_id != packet.envelope.topic_id || inlet.closed) continue;
+    if (packet.envelope.seq != inlet.expected_seq && inlet.ending) continue;
     if (packet.envelope.seq != inlet.expected_seq)
       throw lost_messages(inlet.from.publisher, inlet.from.topic, inlet.expected_seq, packet.envelope.seq);
     ++inlet.expected_seq;
     inlet.waiting.push_back(packet);
+  }
+}
+
+void Stepper::close(std::uint32_t topic_id, SimTime t, const PeerError& why) {
+  for (Inlet& inlet : inlets_) {
+    if (inlet.from.topic_id == topic_id && !inlet.closed && !inlet.ending) inlet.ending = Ending{t, why};
   }
 }
 
@@ -69,14 +77,30 @@ void Stepper::deliver_due(SimTime now) {
       if (SimTime{inlet.waiting.front().envelope.t_sim_ns} + inlet.from.delay > now) continue;
       if (!first || key(inlet) < key(*first)) first = &inlet;
     }
-    if (!first) return;
+    if (!first) return close_due(now);
     const msg::Packet packet = std::move(first->waiting.front());
     first->waiting.pop_front();
-    try {
-      ports_.deliver(first->from.in_index, packet);
-    } catch (const msg::DecodeError& e) {
-      throw broken_message(first->from.publisher, first->from.topic, packet.envelope.seq, e.what());
-    }
+    deliver(*first, packet, now);
+  }
+}
+
+void Stepper::deliver(Inlet& inlet, const msg::Packet& packet, SimTime now) {
+  try {
+    ports_.deliver(inlet.from.in_index, packet);
+  } catch (const msg::DecodeError& e) {
+    const PeerError why = broken_message(inlet.from.publisher, inlet.from.topic, packet.envelope.seq, e.what());
+    if (!inlet.from.may_be_lost) throw PeerError(why);
+    inlet.waiting.clear();
+    inlet.ending = Ending{now - inlet.from.delay, why};
+  }
+}
+
+void Stepper::close_due(SimTime now) {
+  for (Inlet& inlet : inlets_) {
+    if (!inlet.ending || inlet.ending->t + inlet.from.delay > now) continue;
+    unusable_.push_back({now, inlet.ending->why});
+    inlet.ending.reset();
+    inlet.closed = true;
   }
 }
 

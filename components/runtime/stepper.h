@@ -2,7 +2,9 @@
 
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "components/errors/exit_error.h"
@@ -40,6 +42,14 @@ class Stepper {
 
   /// A message has arrived; in order per topic. Throws PeerError on a gap in its topic's seq.
   void insert(const msg::Packet& packet);
+  /// Nothing of this topic is delivered beyond what has been inserted: what came at time `t` cannot be used.
+  void close(std::uint32_t topic_id, SimTime t, const PeerError& why);
+  /// Publishers that events have done without since the last call: from the first that would have had such a message.
+  struct Unusable {
+    SimTime event{0};
+    PeerError why;
+  };
+  std::vector<Unusable> take_unusable() { return std::exchange(unusable_, {}); }
   /// An event has been run that should have seen this message: its publisher broke a promise.
   bool too_late(const msg::Packet& packet) const;
 
@@ -56,13 +66,21 @@ class Stepper {
   const std::vector<std::uint64_t>& published() const { return published_; }
 
  private:
+  struct Ending {
+    SimTime t{0};
+    PeerError why;
+  };
   struct Inlet {
     Feed from;
     std::uint64_t expected_seq = 0;
     std::deque<msg::Packet> waiting;
+    std::optional<Ending> ending = {};
+    bool closed = false;
   };
 
   void deliver_due(SimTime now);
+  void deliver(Inlet& inlet, const msg::Packet& packet, SimTime now);
+  void close_due(SimTime now);
   void publish(std::size_t out_index, msg::Body body, msg::Buffer wall_facts);
   LivePlane live_plane();
   msg::Packet packet_of(const OutTopic& topic, const std::string& type, std::uint64_t seq, msg::Body body,
@@ -74,6 +92,7 @@ class Stepper {
   std::uint32_t epoch_ = 0;
   std::uint32_t rank_ = 0;
   std::vector<Inlet> inlets_;
+  std::vector<Unusable> unusable_;
   std::vector<OutTopic> outs_;
   std::vector<std::uint64_t> published_;
   std::vector<RateLimit> limits_;  // of each output

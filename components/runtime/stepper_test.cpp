@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/errors/assert.h"
+#include "components/runtime/peer.h"
 #include "components/runtime/testing/node_under_test.h"
 #include "messages/health.h"
 #include "messages/motion.h"
@@ -79,6 +80,37 @@ TEST_CASE("a gap in a topic's sequence is data that its publisher lost") {
   stepper.wire({{0, "a/b", 0, "guidance/1", "a", 0, SimTime{0}, 0}}, {}, {}, 1, 0, [](msg::Packet&&) {});
   CHECK_THROWS_AS(stepper.insert(packet), PeerError);
   CHECK_THROWS_WITH(stepper.insert(packet), "a lost messages: a/b: seq 0 is missing, 1 came");
+}
+
+TEST_CASE("a topic of a publisher that may be lost ends where it cannot be used, and the event that notices says so") {
+  Ports ports("p");
+  std::vector<std::uint64_t> seen;
+  ports.in_any("all", {"*"}, [&](const msg::Packet& packet) { seen.push_back(packet.envelope.seq); });
+  ports.seal();
+  Stepper stepper(ports, [](SimTime now) { return now + 100_ms; });
+  Feed feed{0, "a/b", 0, "guidance/1", "a", 0, 50_ms, 0};
+  feed.may_be_lost = true;
+  stepper.wire({feed}, {}, {}, 1, 0, [](msg::Packet&&) {});
+  const auto insert = [&](std::uint64_t seq, SimTime t) {
+    msg::Packet packet;
+    packet.envelope.seq = seq;
+    packet.envelope.t_sim_ns = t.count();
+    stepper.insert(packet);
+  };
+  insert(0, 0_s);
+  stepper.close(0, 100_ms, broken_message("a", "a/b", 2, "what"));  // known before the message before it is counted
+  stepper.run_to(100_ms);
+  insert(1, 100_ms);
+  CHECK(stepper.take_unusable().empty());
+  stepper.run_to(1_s);
+  insert(2, 200_ms);  // of no use any more
+  stepper.run_to(2_s);
+  CHECK(seen == std::vector<std::uint64_t>{0, 1});
+  const auto unusable = stepper.take_unusable();
+  REQUIRE(unusable.size() == 1);
+  CHECK(unusable[0].event == 200_ms);
+  CHECK(unusable[0].why.culprit == "a");
+  CHECK(stepper.take_unusable().empty());
 }
 
 TEST_CASE("a node that asks for the end stops there, whatever the horizon") {

@@ -1,5 +1,5 @@
 """A process that the run may lose: it is taken out of the lockstep, its topics fall silent, and the run goes on. Killed at a sim
-time the run has the same bytes each time; killed from outside it goes on all the same."""
+time, or because a message of it cannot be used, the run has the same bytes each time; killed from outside it goes on all the same."""
 import hashlib
 import os
 import signal
@@ -22,6 +22,36 @@ with ensonify.Participant("agent") as me:
 """
 
 
+# With a second topic, of which nothing is wrong.
+ERRS_AT_20 = """
+import ensonify
+with ensonify.Participant("agent") as me:
+    estimates = me.subscribe("estimate", ensonify.Estimate)
+    command = me.publish("command", ensonify.Guidance, rate=10)
+    other = me.publish("other", ensonify.Ctd, rate=10)
+    for step in me.steps(rate=10):
+        order = ensonify.Guidance(stamp_ns=step.t_ns, heading_grid_rad=0.2, speed_mps=1.0)
+        if step.t_ns == 20_000_000_000:
+            {mistake}
+        else:
+            command.send(order)
+        other.send(ensonify.Ctd(stamp_ns=step.t_ns))
+"""
+MISTAKES = {"message is not msgpack": """me._publish(b"agent/command\\0", command.topic_id, command._hash, [b"\\xc1"])""",
+            "epoch: is 7": "me._session.epoch = 7; command.send(order); me._session.epoch = 1"}
+
+READER = """
+import pathlib, sys, ensonify
+with ensonify.Participant("reader") as me, open(me.config["file"], "w") as file:
+    commands = me.subscribe("command", ensonify.Guidance, topics=["agent/command"])
+    others = me.subscribe("other", ensonify.Ctd, topics=["agent/other"])
+    for step in me.steps(rate=4):
+        for port in (commands, others):
+            for received in port.received:
+                print(received.topic, received.t_sim_ns, file=file)
+"""
+
+
 def losing(name, text):
     """A launch of stubs in which this process may be lost."""
     return text.replace(f"  {name}: {{ run: stub,", f"  {name}: {{ may_be_lost: true, run: stub,")
@@ -39,7 +69,7 @@ class Lost(SystemTest):
         return entry
 
 
-class SameBytes(Lost):
+class Recorded(Lost):
     def run_recorded(self, launch, name, *options, prefix=()):
         file = self.folder / f"{name}.mcap"
         result = self.run_launch(launch, "--record", file, *options, out=name, prefix=prefix, timeout=120)
@@ -53,6 +83,8 @@ class SameBytes(Lost):
         with ensonify.Record(file) as record:
             return [round(t_ns * 1e-9, 6) for _, t_ns, _ in record.messages(topic)]
 
+
+class SameBytes(Recorded):
     def check(self, launch):
         digests = []
         for name, options, prefix in (("free", ("--free",), ()), ("again", ("--free",), ()), ("paced", ("--rate", "20"), ()),
@@ -80,6 +112,40 @@ class SameBytes(Lost):
         agent = self.write("agent.py", AGENT.format(leave="pass"))
         text = KILLED.read_text().replace("duration_s: 60", "duration_s: 30").split("expect:")[0]
         self.check(self.write("python.yaml", text.replace("agent: { run: autopilot,", f"agent: {{ run: [python3, {agent}],")))
+
+
+class Unusable(Recorded):
+    """A reader of Python, one of C++ and the recorder take nothing more of the topic; of the other topic all see the same."""
+
+    def check(self, mistake, words):
+        agent = self.write("errs.py", ERRS_AT_20.format(mistake=words))
+        reader, heard = self.write("reader.py", READER), self.folder / "heard.txt"
+        text = KILLED.read_text().replace("duration_s: 60", "duration_s: 30").split("inject:")[0]
+        text = text.replace("agent: { run: autopilot,", f"agent: {{ run: [python3, {agent}],")
+        text += f"  reader: {{ run: [python3, {reader}], config: {{ file: {heard} }} }}\n"
+        launch = self.write("errs.yaml", text)
+        seen = []
+        for name, options, prefix in (("free", ("--free",), ()), ("again", ("--free",), ()), ("paced", ("--rate", "20"), ()),
+                                      ("core", ("--free",), ("taskset", "-c", "0"))):
+            result, file = self.run_recorded(launch, f"{name}_{len(words)}", *options, prefix=prefix)
+            entry = self.lost(result, "agent")
+            self.assertIn("agent sent a message that cannot be used: agent/command: seq 200: ", entry["lost"]["message"])
+            self.assertIn(mistake, entry["lost"]["message"])
+            seen.append((self.digest(file), heard.read_text(), entry["lost"]["at_s"], self.times_s(file, "agent/other")[-1]))
+        self.assertEqual(len(set(seen)), 1, [one[2:] for one in seen])
+        at_s, last_of_other_s = seen[0][2:]
+        self.assertTrue(21 < at_s < 22, at_s)
+        self.assertEqual(round(last_of_other_s, 6), round(at_s - 0.1, 6))
+        lines = [line.split() for line in seen[0][1].splitlines()]
+        self.assertEqual(max(int(t_ns) for topic, t_ns in lines if topic == "agent/command"), 19_900_000_000)
+        self.assertEqual(max(int(t_ns) for topic, t_ns in lines if topic == "agent/other"), round(last_of_other_s * 1e9))
+        self.assertGreater(self.times_s(file, "boat/pose")[-1], 29)
+
+    def test_a_message_that_is_none(self):
+        self.check("message is not msgpack", MISTAKES["message is not msgpack"])
+
+    def test_a_message_of_another_epoch(self):
+        self.check("epoch: is 7", MISTAKES["epoch: is 7"])
 
 
 class Ends(Lost):

@@ -71,8 +71,10 @@ REFUSED = {
 
 
 class Rude(SystemTest):
-    def run_with(self, mistake, more=""):
+    def run_with(self, mistake, more="", may_be_lost=False):
         launch = LAUNCH.format(source=SOURCE, python=sys.executable, client=CLIENT, mistake=mistake, more=more)
+        if may_be_lost:
+            launch = launch.replace("foreign: { run:", "foreign: { may_be_lost: true, run:")
         return self.run_launch(launch, "--quiet", out=mistake.replace(" ", "_").replace("'", ""))
 
     def check(self, mistake, code, *texts, culprit="foreign"):
@@ -94,6 +96,19 @@ class Rude(SystemTest):
     def test_what_breaks_the_protocol_stalls_or_loses(self):
         for mistake, (code, text) in OTHERS.items():
             self.check(mistake, code, text)
+
+    def test_one_that_may_be_lost_is_lost_by_its_message_and_the_run_goes_on(self):
+        texts = {mistake: text for mistake, (_, text) in MESSAGES.items()}
+        texts |= {mistake: OTHERS[mistake][1] for mistake in ("skips a seq", "counts too many", "a frame of 64 MB", "a flood")}
+        for mistake, text in texts.items():
+            with self.subTest(mistake):
+                result = self.run_with(mistake, may_be_lost=True)
+                self.assertEqual(result.code, 0, result.stderr)
+                states = {process["name"]: process for process in result.report()["processes"]}
+                self.assertEqual(states["foreign"]["state"], "LOST")
+                self.assertIn(text, states["foreign"]["lost"]["message"])
+                self.assertIn("lost process=foreign", result.log("clock"))
+                self.assertEqual(result.clock()["end_ns"], 3_000_000_000)
 
     def test_a_process_that_outgrows_its_memory_is_named_and_an_observer_is_lost_alone(self):
         grow = f"run: [{sys.executable}, -c, 'import time; x = b\"x\" * 300_000_000; time.sleep(60)'], memory_mb: 200"

@@ -19,6 +19,7 @@ from typing import Any, Iterator, Mapping
 from ensonify import wire
 from ensonify.injections import InjectedKill, Injector
 from ensonify.launching import assignments
+from ensonify.packets import Ending
 from ensonify.rate_limit import RateLimit
 from ensonify.session import EXIT_BAD_INPUT, EXIT_DIED, RunError, Session, wall_ns
 from ensonify.typed import Message, declared_in
@@ -143,6 +144,8 @@ class Participant:
         self._injector: Injector | None = None  # of the epoch
         self._queues: list = []  # (delay ns, deque of (topic, Packet), In), one per edge
         self._by_topic: dict = {}  # topic id -> queues that want it
+        self._may_be_lost: set = set()  # topics whose publisher the run may lose
+        self._ended: set = set()  # those of which nothing more is taken
 
     # --- declaring ports, before the first step
 
@@ -308,6 +311,7 @@ class Participant:
         else:
             raise RuntimeError("steps() can be used once in an epoch")
         self._queues, self._by_topic = [], {}
+        self._may_be_lost, self._ended = {entry["topic"] for entry in welcome["in"] if entry.get("may_be_lost")}, set()
         for port in self._ins:
             port.received, port.latest = [], None
         self.facts = welcome.get("facts", {})
@@ -337,13 +341,29 @@ class Participant:
                 due.append(((e.t_sim_ns, e.publisher, e.topic_id, e.seq), packet, port, topic))
         due.sort(key=lambda entry: entry[0])
         for _, packet, port, topic in due:
-            content = self._content(port, topic, packet)
+            if topic in self._ended:
+                continue
+            try:
+                content = self._content(port, topic, packet)
+            except RunError as why:
+                self._end(topic, t_ns, why)
+                continue
             port.received.append(Received(topic, packet.envelope, content))
             port.latest = content
+
+    def _end(self, topic: str, t_ns: int, why: RunError) -> None:
+        """Goes on without a topic whose publisher may be lost; raises `why` for any other."""
+        if topic not in self._may_be_lost:
+            raise why
+        if topic not in self._ended:
+            self._ended.add(topic)
+            self._session.unusable(t_ns, why)
 
     @staticmethod
     def _content(port: In, topic: str, packet) -> Any:
         """What a message says. One that cannot be read is its sender's mistake."""
+        if isinstance(packet, Ending):
+            raise packet.why
         try:
             content = wire.decode_body(packet.head, packet.arrays)
             return content if port.message_type is None else port.message_type.from_map(content)

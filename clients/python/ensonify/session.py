@@ -5,42 +5,24 @@ import os
 import re
 import socket
 import time
-from typing import Any, NamedTuple
 
 import zmq
 import zmq.utils.monitor
 
 from ensonify import wire
 from ensonify.keys import Gate, keys_for, set_bound, set_connected
+from ensonify.packets import Ending, Packet, decoded_envelope, judged
+from ensonify.run_error import EXIT_BAD_INPUT, EXIT_DATA_LOST, EXIT_DIED, EXIT_OK, EXIT_STALL, RunError
 
 LIVE_QUEUE = 4  # messages kept for a viewer that does not keep up; the rest is dropped
 LONGEST_WINDOW_S = 5  # how far a launch file may let a publisher run ahead of its readers
+LONGEST_WINDOW_NS = LONGEST_WINDOW_S * 1_000_000_000
 FLUSH_MS = 2000  # how long what has been sent may take to leave after the end
 PATIENCE_S = 50.0  # how long what a grant counts may take to come, unless the clock says otherwise
+ENDED = math.inf  # in the place of a count: nothing more of the topic is awaited or taken
 WAKE_MS = 1000  # how often a waiting participant checks whether the clock is still there
 
 _EVENTS, _POLLIN, _SNDMORE, _RCVMORE = int(zmq.EVENTS), int(zmq.POLLIN), int(zmq.SNDMORE), int(zmq.RCVMORE)  # plain numbers: pyzmq's enums cost more than the calls
-
-EXIT_OK, EXIT_BAD_INPUT, EXIT_DIED, EXIT_STALL, EXIT_DATA_LOST = 0, 2, 3, 4, 5
-
-
-class RunError(Exception):
-    """The run cannot go on for this process. `code` is the exit code that says why; `culprit`, if any, the process whose
-    message could not be used."""
-
-    def __init__(self, message: str, code: int, culprit: str = ""):
-        super().__init__(message)
-        self.code = code
-        self.culprit = culprit
-
-
-class Packet(NamedTuple):
-    """A message as it arrived, not yet decoded."""
-
-    envelope: wire.Envelope
-    head: Any  # the msgpack map
-    arrays: list  # raw frames
-
 
 class Session:
     """Everything between a participant and ZeroMQ. No thread of ours: libzmq's own drains the data, and the clock's
@@ -75,7 +57,9 @@ class Session:
         self.end_code = None  # set once the run has ended
         self.next_epoch: int | None = None  # set once the present one has ended and another is to begin
         self._idle = False  # nothing that comes is of use any more
-        self._arrived: dict = {}  # topic id -> messages so far
+        self._arrived: dict = {}  # topic id -> messages so far, or ENDED
+        self._newest_ns: dict = {}  # topic id -> sim time of the newest message
+        self._latest_ns = LONGEST_WINDOW_NS  # sim time beyond which nothing can have been sent
         self._topics: dict = {}  # first frame of a topic's messages -> its entry in WELCOME
         self._published: dict = {}  # topic id -> messages so far
         self._early: list = []  # packets that no grant has counted yet
@@ -135,7 +119,7 @@ class Session:
         self._published = {out["topic_id"]: 0 for out in welcome["out"]}
         self._topics = {entry["topic"].encode() + b"\0": {**entry, "hash": wire.type_hash(entry["type"])} for entry in welcome["in"]}
         self._arrived = {entry["topic_id"]: 0 for entry in welcome["in"]}
-        self._early = []
+        self._newest_ns, self._latest_ns, self._early = {}, LONGEST_WINDOW_NS, []
         return welcome
 
     def _subscribe(self, inputs: list) -> None:
@@ -203,7 +187,7 @@ class Session:
                         break
                     waited_ms += WAKE_MS
                     if waited_ms > 1000 * self._patience_s:
-                        raise self._missing(topic_id, count)
+                        self._sort_in(self._ending(*self._missing(topic_id, count)), counts, deliver)
                     continue
                 waited_ms = 0
                 packet = self._packet(topic)
@@ -211,7 +195,7 @@ class Session:
                     self._sort_in(packet, counts, deliver)
         return True
 
-    def _sort_in(self, packet: Packet, counts: dict, deliver) -> None:
+    def _sort_in(self, packet: Packet | Ending, counts: dict, deliver) -> None:
         topic_id = packet.envelope.topic_id
         if topic_id in self._closed:
             return
@@ -223,9 +207,9 @@ class Session:
     def _publisher(self, topic_id: int) -> str:
         return next(entry["publisher"] for entry in self._topics.values() if entry["topic_id"] == topic_id)
 
-    def _missing(self, topic_id: int, count: int) -> RunError:
+    def _missing(self, topic_id: int, count: int) -> tuple:
         entry = next(entry for entry in self._topics.values() if entry["topic_id"] == topic_id)
-        return RunError(f"{entry['publisher']} lost messages: {entry['topic']}: its DONE counted {count}, {self._arrived[topic_id]} "
+        return entry, RunError(f"{entry['publisher']} lost messages: {entry['topic']}: its DONE counted {count}, {self._arrived[topic_id]} "
                         "have come", EXIT_DATA_LOST, entry["publisher"])
 
     def done(self, next_ns: int, finish: bool, cost_ns: int, for_ever: bool = True) -> None:
@@ -234,6 +218,7 @@ class Session:
         if next_ns == wire.NEVER and for_ever:
             self._sub.close()
         self._idle = next_ns == wire.NEVER
+        self._latest_ns = next_ns + LONGEST_WINDOW_NS
         self._control.send(wire.encode_done(self.epoch, next_ns, finish, cost_ns, self._published.items()))
         if self._published:
             self._note_viewers()  # while the others work
@@ -271,6 +256,10 @@ class Session:
     def fail(self, code: int, message: str, culprit: str = "") -> None:
         """Reports to the clock why this process leaves."""
         self._send_control({"kind": "failed", "code": code, "message": message, **({"culprit": culprit} if culprit else {})})
+
+    def unusable(self, t_ns: int, why: RunError) -> None:
+        """Reports to the clock that from an event on a topic is done without, whose publisher may be lost."""
+        self._send_control({"kind": "unusable", "t_ns": t_ns, "code": why.code, "message": str(why), "culprit": why.culprit})
 
     def close(self) -> None:
         """Lets what has been sent leave, then gives every socket back."""
@@ -334,10 +323,10 @@ class Session:
             self._control.setsockopt(zmq.LINGER, 0)  # nobody will read what is left
             raise RunError(f"{self.name}: the clock is gone", EXIT_DIED)
 
-    def _packet(self, topic: bytes) -> Packet | None:
-        """The rest of the message that begins with `topic`, if it is the one that its topic expects; None if it is of an
-        epoch before. Small frames are copied, arrays are not."""
-        entry = self._topics.get(topic)
+    def _packet(self, topic: bytes) -> Packet | Ending | None:
+        """The rest of the message that begins with `topic`, if it is the one that its topic expects; None if nothing is to be had of
+        it: it is of an epoch before, or its topic has ended. Small frames are copied, arrays are not."""
+        entry = self._topics.get(topic) or next((each for each in self._topics.values() if topic == b"~" + each["token"].encode()), None)
         if entry is None:
             raise RunError(f"{self.name}: {topic!r} is no topic of ours", EXIT_DIED)
         frames = []
@@ -345,35 +334,31 @@ class Session:
         while more:
             frames.append(self._sub.recv(copy=False))
             more = frames[-1].more
-        expected = self._arrived[entry["topic_id"]]
-
-        def broken(what: str) -> RunError:
-            return RunError(f"{entry['publisher']} sent a message that cannot be used: {entry['topic']}: seq {expected}: {what}",
-                            EXIT_DIED, entry["publisher"])
-        if len(frames) < wire.FIRST_ARRAY_FRAME - 1:
-            raise broken("message: fewer than 3 frames")
+        if self._arrived[entry["topic_id"]] == ENDED:
+            return None
         try:
-            envelope = wire.decode_envelope(frames[0].bytes)
-        except wire.DecodeError as error:
-            raise broken(str(error)) from None
+            envelope = decoded_envelope(entry, frames, self._arrived[entry["topic_id"]])
+        except RunError as why:
+            return self._ending(entry, why)
         if 1 <= envelope.epoch < self.epoch:
             return None
-        for what, has, wanted in (("epoch", envelope.epoch, self.epoch), ("publisher", envelope.publisher, entry["rank"]),
-                                  ("topic id", envelope.topic_id, entry["topic_id"]), ("type hash", envelope.type_hash, entry["hash"]),
-                                  ("frame count", envelope.frame_count, 1 + len(frames))):
-            if has != wanted:
-                raise broken(f"envelope: {what}: is {has}, not {wanted}")
-        if envelope.seq != expected:
-            raise RunError(f"{entry['publisher']} lost messages: {entry['topic']}: seq {expected} is missing, {envelope.seq} came",
-                           EXIT_DATA_LOST, entry["publisher"])
-        self._arrived[entry["topic_id"]] = expected + 1
-        head, arrays = frames[1], frames[2:]
-        if envelope.flags & wire.FLAG_WALL_FACTS and arrays:
-            arrays.pop()
-        size = len(head) + sum(map(len, arrays))
-        if size > entry["max_bytes"]:
-            raise broken(f"{size} bytes, declared at most {entry['max_bytes']}")
-        return Packet(envelope, head.bytes, [frame.buffer for frame in arrays])
+        try:
+            packet = judged(entry, envelope, frames, self.epoch, self._arrived[entry["topic_id"]])
+        except RunError as why:
+            return self._ending(entry, why, envelope.t_sim_ns)
+        self._arrived[entry["topic_id"]] += 1
+        self._newest_ns[entry["topic_id"]] = envelope.t_sim_ns
+        return packet
+
+    def _ending(self, entry: dict, why: RunError, t_ns: int | None = None) -> Ending:
+        """In the place of what cannot be used: the run goes on without a publisher that may be lost. Raises `why` for any other."""
+        if not entry.get("may_be_lost"):
+            raise why
+        topic_id = entry["topic_id"]
+        seq, self._arrived[topic_id] = self._arrived[topic_id], ENDED
+        newest_ns = self._newest_ns.get(topic_id, 0)
+        known = t_ns is not None and newest_ns <= t_ns <= self._latest_ns
+        return Ending(wire.Envelope(0, self.epoch, entry["rank"], topic_id, 0, entry["hash"], seq, t_ns if known else newest_ns), why)
 
 
 def host_towards(endpoint: str) -> str:

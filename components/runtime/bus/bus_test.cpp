@@ -197,6 +197,32 @@ TEST_CASE("what was counted and never comes is lost by its publisher") {
   }
 }
 
+TEST_CASE("what is wrong of a publisher that may be lost ends its topic, with the time that it gives") {
+  Pair pair(false);
+  bus::Subscription subscription{"pager/tile", 3, "tile/1", pair.publisher.sync_endpoint(), "e0", 1 << 24,
+                                 "pager",      0, {1000, 1}};
+  subscription.may_be_lost = true;
+  pair.subscriber.subscribe({subscription}, 1);
+  const auto publish = [&](std::uint64_t seq, std::int64_t t_ns, std::uint32_t rank) {
+    msg::Packet packet = packet_of(tile_of(3), seq);
+    packet.envelope.t_sim_ns = t_ns;
+    packet.envelope.publisher = rank;
+    pair.publisher.publish(packet);
+  };
+  publish(0, 100, 0);
+  publish(1, 200, 7);
+  publish(2, 300, 0);
+  pair.publisher.flush();
+  pair.subscriber.wait_arrived({{3, 3}});
+  CHECK(pair.subscriber.take().size() == 1);
+  const auto unusable = pair.subscriber.take_unusable();
+  REQUIRE(unusable.size() == 1);
+  CHECK(unusable[0].topic_id == 3);
+  CHECK(unusable[0].t == SimTime{200});
+  CHECK_THAT(unusable[0].why.what(), Catch::Contains("pager/tile: seq 1: publisher: is 7"));
+  CHECK(pair.subscriber.take_unusable().empty());
+}
+
 TEST_CASE("a full sync queue holds the publisher back instead of losing a message") {
   Pair pair(false);
   constexpr std::uint64_t kMessages = 400;  // 64 KiB each: far more than 16 queued and the kernel's buffers

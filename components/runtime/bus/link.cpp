@@ -124,6 +124,8 @@ void Link::expect_until(SimTime t) { receiver_->expect_until(t); }
 
 std::vector<msg::Packet> Link::take() { return receiver_->take(); }
 
+std::vector<Unusable> Link::take_unusable() { return receiver_->take_unusable(); }
+
 bool Link::is_watched(const std::string& topic) {
   sockets_->poll_viewers();
   return sockets_->viewers.has_subscriber(topic);

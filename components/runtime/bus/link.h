@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/errors/exit_error.h"
 #include "components/runtime/bus/keys.h"
 #include "components/runtime/sim_time.h"
 #include "messages/codec.h"
@@ -39,6 +40,14 @@ struct Subscription {
   std::string publisher;
   std::uint32_t rank = 0;  // of the publisher
   Rate rate;               // highest that it declared
+  bool may_be_lost = false;
+};
+
+/// A topic of which nothing more is taken, for what came at time `t` cannot be used.
+struct Unusable {
+  std::uint32_t topic_id = 0;
+  SimTime t{0};
+  PeerError why;
 };
 
 class Receiver;
@@ -89,6 +98,9 @@ class Link {
   void expect_until(SimTime t);
   /// Everything received since the last call, in order per topic.
   std::vector<msg::Packet> take();
+  /// Topics that have come to such an end since the last call: of publishers that may be lost. The mistakes of others
+  /// are thrown.
+  std::vector<Unusable> take_unusable();
 
   /// To observers at once, never waiting. To participants with the next flush(): none of them acts on a message before
   /// its publisher is done, and many small ones together cost a fraction of the switches between threads. What they

@@ -42,6 +42,7 @@ void Receiver::begin(const std::vector<Subscription>& subscriptions, std::uint32
   inputs_.clear();
   for (const Subscription& s : subscriptions) inputs_.try_emplace(s.topic_id, s);
   packets_.clear();
+  unusable_.clear();
   latest_ = kLongestWindow.count();
 }
 
@@ -74,15 +75,32 @@ void Receiver::judge(std::vector<zmq::message_t>&& frames) {
     const auto known = inputs_.find(packet.envelope.topic_id);
     if (known == inputs_.end() || packet.topic != known->second.subscription.topic)
       throw msg::DecodeError("envelope: topic id is " + std::to_string(packet.envelope.topic_id));
-    accept(known->second, std::move(packet));
+    const SimTime t{packet.envelope.t_sim_ns};
+    try {
+      accept(known->second, std::move(packet));
+    } catch (const PeerError& why) {
+      refuse(known->second, why, t);
+    }
   } catch (const msg::DecodeError& e) {
-    for (const auto& [id, input] : inputs_) {
+    for (auto& [id, input] : inputs_) {
       const Subscription& s = input.subscription;
       if (came_on.starts_with(s.topic + '\0') || came_on.starts_with("~" + s.token))
-        throw broken_message(s.publisher, s.topic, input.arrived, e.what());
+        return refuse(input, broken_message(s.publisher, s.topic, input.arrived, e.what()));
     }
     throw;
   }
+}
+
+/// The run goes on without a publisher that may be lost. Where the message gives no time that can be, it is that of the
+/// one before.
+void Receiver::refuse(Input& input, const PeerError& why, std::optional<SimTime> t) {
+  const Subscription& s = input.subscription;
+  if (!s.may_be_lost) throw PeerError(why);
+  if (input.closed) return;
+  input.closed = true;
+  const bool known = t && *t >= input.last && *t <= SimTime{latest_.load()};
+  unusable_.push_back({s.topic_id, known ? *t : input.last, why});
+  if (awaited_ && all_arrived(*awaited_)) news_.notify_one();
 }
 
 void Receiver::accept(Input& input, msg::Packet&& packet) {
@@ -107,17 +125,18 @@ void Receiver::accept(Input& input, msg::Packet&& packet) {
   if (awaited_ && all_arrived(*awaited_)) news_.notify_one();
 }
 
-/// The topics of which something is still to come, for messages.
-PeerError Receiver::missing(const Link::TopicCounts& counts) const {
+/// What was counted and has not come.
+void Receiver::refuse_missing(const Link::TopicCounts& counts) {
   for (const auto& [id, count] : counts) {
     const auto found = inputs_.find(id);
-    if (found == inputs_.end() || found->second.arrived >= count) continue;
+    if (count == 0) continue;
+    if (found == inputs_.end()) throw DataLost("a message is missing");
+    if (found->second.arrived >= count || found->second.closed) continue;
     const Subscription& s = found->second.subscription;
-    return {kExitDataLost, s.publisher,
-            s.publisher + " lost messages: " + s.topic + ": its DONE counted " + std::to_string(count) + ", " +
-                std::to_string(found->second.arrived) + " have come"};
+    refuse(found->second, {kExitDataLost, s.publisher,
+                           s.publisher + " lost messages: " + s.topic + ": its DONE counted " + std::to_string(count) +
+                               ", " + std::to_string(found->second.arrived) + " have come"});
   }
-  return {kExitDataLost, "", "a message is missing"};
 }
 
 bool Receiver::all_arrived(const Link::TopicCounts& counts) const {
@@ -173,7 +192,7 @@ void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::millis
     close_lost(counts);
     if (waited < patience) continue;
     awaited_ = nullptr;
-    throw missing(counts);
+    refuse_missing(counts);
   }
   awaited_ = nullptr;
   if (error_) std::rethrow_exception(error_);
@@ -182,6 +201,11 @@ void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::millis
 std::vector<msg::Packet> Receiver::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(packets_, {});
+}
+
+std::vector<Unusable> Receiver::take_unusable() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(unusable_, {});
 }
 
 }  // namespace ensonify::bus

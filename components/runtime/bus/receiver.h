@@ -34,6 +34,7 @@ class Receiver {
   void lost(const std::string& publisher);
   void expect_until(SimTime t) { latest_ = t.count(); }
   std::vector<msg::Packet> take();
+  std::vector<Unusable> take_unusable();
   /// Throws what the thread threw.
   void rethrow();
 
@@ -52,7 +53,8 @@ class Receiver {
   void drain();
   void judge(std::vector<zmq::message_t>&& frames);
   void accept(Input& input, msg::Packet&& packet);
-  PeerError missing(const Link::TopicCounts& counts) const;
+  void refuse(Input& input, const PeerError& why, std::optional<SimTime> t = {});
+  void refuse_missing(const Link::TopicCounts& counts);
   bool all_arrived(const Link::TopicCounts& counts) const;
   void close_lost(const Link::TopicCounts& counts);
   void fail(std::exception_ptr why);
@@ -65,6 +67,7 @@ class Receiver {
   std::condition_variable news_;
   const Link::TopicCounts* awaited_ = nullptr;  // what the other thread sleeps for: it is not woken for less
   std::vector<msg::Packet> packets_;
+  std::vector<Unusable> unusable_;
   std::exception_ptr error_;
   std::thread thread_;
 };

@@ -21,10 +21,18 @@ void Conductor::end_at(SimTime end) {
   end_ = std::min(end_, end);
 }
 
+void Conductor::stop_before(std::size_t p, SimTime t) {
+  State& s = state_[p];
+  s.stop = std::min(s.stop, std::max(t, saturating_add(s.granted, kTick)));
+}
+
+bool Conductor::stopped(std::size_t p) const { return !state_[p].running && state_[p].next >= state_[p].stop; }
+
 void Conductor::end_now() { end_at(SimTime{0}); }
 
 SimTime Conductor::uncapped_horizon(std::size_t p) const {
   SimTime horizon = end_;
+  if (state_[p].stop != kNever) horizon = std::min(horizon, state_[p].stop - kTick);
   for (const Edge& edge : edges_) {
     if (edge.to == p) horizon = std::min(horizon, saturating_add(state_[edge.from].next, edge.delay) - kTick);
     if (edge.from == p) horizon = std::min(horizon, saturating_add(state_[edge.to].next, window_));

@@ -11,8 +11,8 @@ namespace ensonify {
 ///
 /// The horizon of p is the smallest of: next(u) - 1 ns over plain inputs from u, next(u) + d - 1 ns over inputs delayed
 /// by d, next(c) + window over consumers c of p, next(f) + kFinishMargin over those who may end the run, the cap
-/// (pacing, pause, step) and the end. Pure logic: the clock process drives it with sockets and wall time, the
-/// in-process runner with function calls.
+/// (pacing, pause, step), the end, and where p is to stop. Pure logic: the clock process drives it with sockets and
+/// wall time, the in-process runner with function calls.
 class Conductor {
  public:
   struct Edge {
@@ -29,6 +29,8 @@ class Conductor {
 
   /// No event after this time runs, from now on. May be lowered, never below what has been granted.
   void end_at(SimTime end);
+  /// `participant` runs no event at or after this time, from now on. Never below what it has been granted.
+  void stop_before(std::size_t participant, SimTime t);
   /// Ends as soon as everybody has reached the furthest time granted so far.
   void end_now();
   /// Pacing, pause and step: nobody acts after `cap`. Lowering it takes nothing back.
@@ -48,6 +50,8 @@ class Conductor {
   SimTime now() const;
   SimTime next(std::size_t participant) const { return state_[participant].next; }
   bool running(std::size_t participant) const { return state_[participant].running; }
+  /// It has come to where it is to stop.
+  bool stopped(std::size_t participant) const;
   SimTime granted(std::size_t participant) const { return state_[participant].granted; }
   SimTime end() const { return end_; }
   SimTime cap() const { return cap_; }
@@ -60,6 +64,7 @@ class Conductor {
   struct State {
     SimTime next{0};
     SimTime granted{-1};
+    SimTime stop = kNever;
     bool running = false;
   };
   SimTime uncapped_horizon(std::size_t participant) const;

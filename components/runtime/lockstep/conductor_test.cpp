@@ -39,6 +39,23 @@ TEST_CASE("a producer may run a window ahead of its consumers, not more") {
   CHECK(horizon_of(conductor.grants(), 0) == 1_s);
 }
 
+TEST_CASE("who is to stop runs no event from then on, but all that it has been granted") {
+  Conductor conductor(2, {{0, 1, 0_s}}, {false, false}, 1_s);
+  CHECK(horizon_of(conductor.grants(), 0) == 1_s);
+  conductor.stop_before(0, 500_ms);  // too late for that
+  CHECK_FALSE(conductor.stopped(0));
+  conductor.done(0, 1_s);
+  CHECK_FALSE(conductor.stopped(0));
+  conductor.grants();
+  conductor.done(0, 1_s);
+  conductor.done(1, 1_s);
+  CHECK(horizon_of(conductor.grants(), 0) == 1_s);  // not 2 s
+  conductor.stop_before(0, 3_s);                    // an earlier stop stands
+  conductor.done(0, 1100_ms);
+  CHECK(conductor.stopped(0));
+  CHECK(horizon_of(conductor.grants(), 0) == SimTime{-1});
+}
+
 TEST_CASE("the cap holds all participants, and next_capped gives pacing its next time") {
   Conductor conductor = loop();
   conductor.set_cap(SimTime{-1});
