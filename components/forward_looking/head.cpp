@@ -188,7 +188,7 @@ ForwardLooking::Design ForwardLooking::prepare(const HeadSettings& settings) con
           settings.pulse_length_s,
           ranged,
           {echo_pulse(config_.pulse, ranged), ranged.sampling.period_s,
-           echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality),
+           echo::SpeckleCells(patch_m(0.5 * resolution_m, config_.quality.rays),
                               {config_.world->seed, "seabed", config_.drawn_seed()}),
            trace::RayDistribution(volume_of(config_), config_.quality.ray_settings(resolution_m, config_.most_rays),
                                   {config_.world->seed, config_.process + "/rays"})}};

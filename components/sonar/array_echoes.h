@@ -23,12 +23,10 @@
 namespace ensonify {
 
 /// Side of the patches of seabed that answer as one point, from what it is at preview or below. A patch has about as
-/// many rays whatever the quality: with fewer, the next ping would not find it again. It becomes at most twice finer,
-/// when a pulse holds some forty across the fan: more rays only make its energy more exact. The reference's may become
-/// four times finer, to show what that leaves out.
-inline double patch_m(double at_preview_m, const Quality& quality) {
-  const double finest = quality.reference ? 0.25 : 0.5;
-  return at_preview_m * std::clamp(std::sqrt(trace::RaySettings::kPreview / quality.rays), finest, 1.0);
+/// many rays whatever the quality: with fewer, the next ping would not find it again. At most four times finer, which
+/// misplaces nothing that a head resolves.
+inline double patch_m(double at_preview_m, double quality) {
+  return at_preview_m * std::clamp(std::sqrt(trace::RaySettings::kPreview / quality), 0.25, 1.0);
 }
 
 /// A receive line of one frequency as its beams are made.
