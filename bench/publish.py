@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Writes docs/performance.md out of what `bench/run.py --json FILE` measured.
+"""Writes docs/performance.md, and its figure, out of what `bench/run.py --json FILE` measured.
 
-    bench/run.py --only table,whole --json table.json && bench/publish.py table.json > docs/performance.md
+    bench/run.py --only table,whole,scaling --json table.json && bench/publish.py table.json > docs/performance.md
 """
 import argparse
 import json
 import pathlib
+
+from scaling_figure import draw, series
 
 HEAD = """# How fast it is
 
@@ -26,6 +28,12 @@ DEMO = """
 | | x real time | goal |
 |---|---|---|
 """
+SCALING = """
+![What a ping costs against rays, beams, posts of the seabed, depth, heads and cores](pictures/scaling.svg)
+
+A multibeam's ping of {few:,.0f} to {many:,.0f} rays takes {least:.0f} to {most:.0f} ns of processor time a ray, and over a seabed of 10^10 posts {posts:.2f} times what it takes over 10^6.
+The panels vary one thing each, from 256 beams at quality 0.5 over rock 20 m deep on posts of 0.1 m, range 60 m; that of the cores is at quality 4 (`./dev bench --only scaling`).
+"""
 TAIL = """
 **A faster picture**: `most_rays` of a head bounds the rays of a transmission; beyond it all parts give way alike. The row of 128 beams is
 `{{ beams: 128, most_samples: 256, range_m: 20, most_rays: 21000 }}`. `quality` is the number of rays that cells of
@@ -33,6 +41,14 @@ resolution and facets ask for: 0.25 for a look, 1 to trust levels. `bench/equal.
 {cpu}, {cores} cores, commit {commit}.{note} What each stage of a ping takes is shown by `ensonify run --profile` ([benchmarks](manual/benchmarks.md)); what made stages fast, and what
 did not, is in [decisions](decisions/speed.md). Absolute times belong to a machine and its load.
 """
+
+
+def scaling(points: list) -> dict:
+    """What the text says of the figure."""
+    rays = series(points, "quality")
+    ray_ns = [1e6 * cost_ms / count for count, cost_ms, _ in rays]
+    posts = series(points, "posts")
+    return {"few": rays[0][0], "many": rays[-1][0], "least": min(ray_ns), "most": max(ray_ns), "posts": posts[-1][1] / posts[0][1]}
 
 
 def page(results: dict, note: str) -> str:
@@ -47,6 +63,10 @@ def page(results: dict, note: str) -> str:
     for row in demos:
         lines.append(f"| {row['demo']} | {row['value']:.3g} | {row['goal']}{'' if row['value'] >= row['goal'] else ' (missed)'} |\n")
     lines += [WHOLE.format(share=row["value"], **row["whole"]) for row in results["rows"] if "whole" in row]
+    points = [row["scaling"] for row in results["rows"] if "scaling" in row]
+    if points:
+        draw(points)
+        lines.append(SCALING.format(**scaling(points)))
     lines.append(TAIL.format(**results["machine"], note=f" {note}" if note else ""))
     return "".join(lines)
 

@@ -28,6 +28,7 @@ from logger_bench import bench_logger
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
 from ratio_bench import bench_ratios
+from scaling_bench import bench_scaling
 from table_bench import bench_table, bench_whole
 from uncertainty_bench import bench_uncertainty
 
@@ -46,7 +47,7 @@ def bench_kernels(b):
 
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
-           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "whole": bench_whole, "labels": bench_labels,
+           "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "whole": bench_whole, "scaling": bench_scaling, "labels": bench_labels,
            "dataset": bench_dataset, "logger": bench_logger, "feed": bench_feed,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "ratios": bench_ratios, "kernels": bench_kernels}
