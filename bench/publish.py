@@ -32,8 +32,9 @@ SCALING = """
 ![What a ping costs against rays, beams, posts of the seabed, depth, heads and cores](pictures/scaling.svg)
 
 A multibeam's ping of {few:,.0f} to {many:,.0f} rays takes {least:.0f} to {most:.0f} ns of processor time a ray, and over a seabed of 10^10 posts {posts:.2f} times what it takes over 10^6.
-The panels vary one thing each, from 256 beams at quality 0.5 over rock 20 m deep on posts of 0.1 m, range 60 m; that of the cores is at quality 4 (`./dev bench --only scaling`).
+The panels vary one thing each, from 256 beams at quality 0.5 over rock 20 m deep on posts of 0.1 m, range 60 m; that of the cores is at quality 4 (`./dev bench --only scaling`).{machine}
 """
+OTHER_MACHINE = " They were measured elsewhere than the tables: {cpu}, {cores} cores, commit {commit}."
 TAIL = """
 **A faster picture**: `most_rays` of a head bounds the rays of a transmission; beyond it all parts give way alike. The row of 128 beams is
 `{{ beams: 128, most_samples: 256, range_m: 20, most_rays: 21000 }}`. `quality` is the number of rays that cells of
@@ -66,15 +67,21 @@ def page(results: dict, note: str) -> str:
     points = [row["scaling"] for row in results["rows"] if "scaling" in row]
     if points:
         draw(points)
-        lines.append(SCALING.format(**scaling(points)))
+        machine = results.get("scaling_machine", results["machine"])
+        elsewhere = "" if machine == results["machine"] else OTHER_MACHINE.format(**machine)
+        lines.append(SCALING.format(**scaling(points), machine=elsewhere))
     lines.append(TAIL.format(**results["machine"], note=f" {note}" if note else ""))
     return "".join(lines)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=pathlib.Path, nargs="+", help="JSON of bench/run.py, one or several of the same machine")
+    parser.add_argument("results", type=pathlib.Path, nargs="+", help="JSON of bench/run.py, one or several of the same machine; that of the scaling may be of another")
     parser.add_argument("--note", default="", help="a sentence about the machine's load")
     options = parser.parse_args()
     parts = [json.loads(file.read_text()) for file in options.results]
-    print(page(parts[0] | {"rows": [row for part in parts for row in part["rows"]]}, options.note), end="")
+    whole = parts[0] | {"rows": [row for part in parts for row in part["rows"]]}
+    for part in parts:
+        if any("scaling" in row for row in part["rows"]):
+            whole["scaling_machine"] = part["machine"]
+    print(page(whole, options.note), end="")
