@@ -170,6 +170,7 @@ class ParameterReader {
   template <class Set>
   void read_word(const char* key, const Allowed& allowed, const Set& set) const {
     ConfigReader::Choices<const Word*> choices;
+    if (!allowed.instead.empty()) choices.emplace_back(allowed.instead, nullptr);  // taken already, but allowed
     for (const Word& word : allowed.words) choices.emplace_back(word.text, &word);
     const Word* found = nullptr;
     allowed.required ? from_.required_choice(key, found, choices) : from_.optional_choice(key, found, choices);
