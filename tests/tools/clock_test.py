@@ -46,7 +46,7 @@ class Clock(unittest.TestCase):
             self.assertIn("pose_blob/1", text)
             code, _, error = run.tool("clock", "get", "seeed")
             self.assertEqual(code, 2)
-            self.assertIn("known: declarations external isa launch scenario seed", error)
+            self.assertIn("known: declarations external isa launch paced scenario seed", error)
 
     def test_wrong_arguments(self):
         with LiveRun() as run:
