@@ -65,8 +65,10 @@ void SpeckleCells::merge(const CellParts& parts, std::span<const std::uint32_t> 
       slots[ray - begin] = sum.first_of_.slot(parts.cell[ray]);
       sum.first_of_.fetch(slots[ray - begin]);
     }
-    for (std::size_t ray = begin; ray < end; ++ray)
-      __builtin_prefetch(sums.data() + sum.first_of_.guess(slots[ray - begin]), 1);
+    for (std::size_t ray = begin; ray < end; ++ray) {
+      const std::uint32_t number = sum.first_of_.guess(slots[ray - begin]);
+      if (number < sums.size()) __builtin_prefetch(&sums[number], 1);
+    }
     for (std::size_t ray = begin; ray < end; ++ray) {
       const std::uint64_t cell = parts.cell[ray];
       if (cell == kNoCell) continue;
