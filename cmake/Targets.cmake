@@ -123,7 +123,7 @@ endif()
 # Tests that start threads and run clean under the thread sanitizer. The others were not tried, or take too long, or count
 # allocations, which the stand-in of TBB makes (docs/decisions/house.md).
 set(ENSONIFY_WATCHED
-  array_test autopilot_test bus_test clock_test coverage_test environment_test georeference_test graph_tool_test
+  array_test autopilot_test bus_test clock_test coverage_test environment_test georeference_test graph_tool_test host_test
   grid_tool_test head_test irregular_test launch_file_test launcher_test lod_test logger_test mesh_file_test
   mesh_message_test nav_feed_test paging_kernel_test patch_tool_test profile_test progressive_test record_live_test
   recorder_test relief_test replay_test sonar_equation_test surface_test survey_grid_test survey_test

@@ -63,8 +63,9 @@ void check_cpus(const ProcessSpec& process) {
 
 }  // namespace
 
-Command clock_command(const Launch& launch, const RunPlaces& places) {
-  Command command = native("conductor", launch, places);
+Command clock_command(const Launch& launch, const RunPlaces& places, const std::set<std::string>& hosted) {
+  Command command = native(hosted.empty() ? "conductor" : "host", launch, places);
+  for (const std::string& name : hosted) command.argv.insert(command.argv.end(), {"--host", name});
   command.log_file = log_file(places, "clock");
   return command;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "launch/child.h"
@@ -14,7 +15,8 @@ struct RunPlaces {
   std::string out;
 };
 
-Command clock_command(const Launch& launch, const RunPlaces& places);
+/// The clock, with these processes in its program.
+Command clock_command(const Launch& launch, const RunPlaces& places, const std::set<std::string>& hosted = {});
 
 /// A native process: `ensonify-<component> --launch FILE ... --run-dir DIR --name NAME --clock ENDPOINT`. A foreign
 /// program: its own words, and ENSONIFY_CLOCK, _NAME, _RUN_DIR, _OUT and _CONFIG (its parameters as JSON) in its

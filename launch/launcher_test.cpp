@@ -12,6 +12,7 @@
 
 #include "launch/child.h"
 #include "launch/commands.h"
+#include "launch/hosted.h"
 #include "launch/memory.h"
 #include "launch/report.h"
 #include "launch/run_dir.h"
@@ -306,6 +307,9 @@ TEST_CASE("native and foreign processes get what they need to join") {
                                              "--clock", "ipc:///run/dir/clock"});
   CHECK(bow.log_file == "o/log/bow.log");
   CHECK(clock_command(launch, places).argv.back() == "/run/dir");
+  CHECK(clock_command(launch, places).argv.front().ends_with("/ensonify-conductor"));
+  CHECK(clock_command(launch, places, {"bow"}).argv.front().ends_with("/ensonify-host"));
+  CHECK(clock_command(launch, places, {"bow"}).argv.back() == "bow");
 
   const Command agent = process_command(launch, launch.processes[1], places, "ipc:///run/dir/clock");
   CHECK(agent.argv[0].ends_with("/sh"));
@@ -321,6 +325,32 @@ TEST_CASE("native and foreign processes get what they need to join") {
                     folder.file("x.yaml") + ":5:8: processes.bad.run: there is no program no_such_program_here");
   CHECK_THROWS_WITH(process_command(launch, launch.processes[3], places, ""),
                     folder.file("x.yaml") + ":6:10: processes.worse.cpus: CPU 4000 is not available to this launcher");
+}
+
+TEST_CASE("the clock's program hosts our own processes, but for those that need one of their own") {
+  const RuntimeFolder folder;
+  std::ofstream(folder.file("x.yaml"))
+      << "ensonify: launch/1\n"
+         "scenario: {ensonify: scenario/1, site: {latitude_deg: 1, longitude_deg: 2}}\n"
+         "processes:\n"
+         "  boat: {run: vehicle}\n"
+         "  nav: {run: navigation, config: {}}\n"
+         "  pinned: {run: navigation, cpus: [0]}\n"
+         "  bounded: {run: navigation, memory_mb: 100}\n"
+         "  varied: {run: navigation, env: {A: b}}\n"
+         "  losable: {run: navigation, may_be_lost: true}\n"
+         "  watcher: {run: navigation, observer: true}\n"
+         "  away: {run: navigation, external: true}\n"
+         "  killed: {run: navigation}\n"
+         "  paused: {run: navigation}\n"
+         "  muted: {run: navigation}\n"
+         "  ended: {run: navigation}\n"
+         "  keeper: {run: recorder}\n"
+         "  agent: {run: [sh, x]}\n"
+         "inject: [{kill: killed, at_s: 1}, {pause: paused, at_s: 1, for_wall_s: 1}, {mute: muted, from_s: 1}]\n"
+         "expect: [{exit: {process: ended, code: 0}}]\n";
+  const Launch launch = read_launch({.file = folder.file("x.yaml")});
+  CHECK(hosted_processes(launch) == std::set<std::string>{"boat", "muted", "nav"});
 }
 
 TEST_CASE("the reports name what failed") {

@@ -63,8 +63,13 @@ std::optional<ClockReport> read_clock_report(const std::string& out) {
   if (!reported.is_object()) {
     return std::nullopt;
   }
-  return ClockReport{reported.value("sim_s", 0.0), reported.value("exit_code", 0), reported.value("culprit", ""),
-                     reported.value("message", ""), losses_in(reported)};
+  ClockReport report{reported.value("sim_s", 0.0),  reported.value("exit_code", 0),
+                     reported.value("culprit", ""), reported.value("message", ""),
+                     losses_in(reported),           {}};
+  for (const auto& participant : reported.value("participants", nlohmann::json::array())) {
+    if (const int code = participant.value("exit_code", 0); code != 0) report.exit_codes[participant["name"]] = code;
+  }
+  return report;
 }
 
 void remove_reports(const std::string& out) {
@@ -106,6 +111,9 @@ std::string json_text(const RunReport& report) {
     if (process.ending) {
       item["exit_code"] = process.ending->signal == 0 ? json(process.ending->exit_code) : json(nullptr);
       item["signal"] = process.ending->signal == 0 ? json(nullptr) : json(process.ending->signal);
+    }
+    if (process.hosted) item["hosted"] = true;
+    if (process.ending && !process.hosted) {
       item["max_rss_kib"] = process.max_rss_kib;
       item["cpu_s"] = process.cpu_s;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct ProcessReport {
   std::string state;  // STARTING, CONNECTED, READY, RUNNING, DONE, FAILED, LOST, STOPPED (by the launcher)
   std::optional<Ending> ending;
   bool external = false;
+  bool hosted = false;  // in the clock's program, which its memory and processor time are counted for
   long max_rss_kib = 0;
   double cpu_s = 0.0;
   std::optional<Fault> fault;
@@ -57,6 +59,7 @@ struct ClockReport {
   int exit_code = 0;
   std::string culprit, message;
   std::vector<Loss> losses;
+  std::map<std::string, int> exit_codes;  // of processes that took leave with another than 0
 };
 
 /// Whom the clock has done without, of its report or of its answer to `status`.

@@ -16,6 +16,7 @@
 #include "launch/check_ports.h"
 #include "launch/commands.h"
 #include "launch/file/launch_file.h"
+#include "launch/hosted.h"
 #include "launch/process/profiled_node.h"
 #include "launch/profile.h"
 #include "launch/run_dir.h"
@@ -32,6 +33,7 @@ struct Options {
   double rate = 0.0;
   bool free = false;
   bool in_process = false;
+  bool hosted = false;
   bool json = false;
   bool quiet = false;
   bool profile = false;
@@ -49,10 +51,15 @@ void declare(CLI::App& app, Options& options) {
   auto* in_process = app.add_flag("--in-process", options.in_process,
                                   "run everything in one process, one thread (debugging, sanitizers)")
                          ->excludes(name);
+  auto* hosted = app.add_flag("--hosted", options.hosted,
+                              "run our own processes in the clock's program where they can be: the same results, more "
+                              "steps a second of an agent")
+                     ->excludes(in_process);
   app.add_flag("--profile", options.profile,
                "measure where the time of each process goes, by stage: a table, run.json, and <out>/profile.json for "
                "https://ui.perfetto.dev")
-      ->excludes(in_process);
+      ->excludes(in_process)
+      ->excludes(hosted);
   app.add_option("--junit", options.junit, "write expectations and process endings as JUnit XML to this file");
   app.add_flag("--json", options.json, "print the result as JSON on standard output");
   app.add_flag("--quiet,-q", options.quiet, "no progress, no summary");
@@ -151,7 +158,8 @@ int run(Options& options) {
   } else {
     if (options.profile) ::setenv(kProfileVariable, "1", 1);
     else ::unsetenv(kProfileVariable);
-    Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json, options.name);
+    Supervisor supervisor(launch, world, program_folder(), options.quiet || options.json, options.name,
+                          options.hosted ? hosted_processes(launch) : std::set<std::string>{});
     report = supervisor.run();
   }
   report.isa = name_of(isa_of(launch));

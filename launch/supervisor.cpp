@@ -25,6 +25,7 @@ constexpr milliseconds kGraceAfterFault{400};   // everything is gone within a s
 constexpr milliseconds kGraceToComplete{5000};  // our own processes that have files to complete
 constexpr milliseconds kGraceToLeave{10000};    // after the clock's end, e.g. a recorder that writes its index
 constexpr milliseconds kRespawnAfter{1000};
+constexpr int kLinesOfAll = 200;  // of the clock's log, among which one is looked for
 
 AboutRun about_run(const Launch& launch, const std::string& name) {
   using std::chrono::seconds;
@@ -40,12 +41,13 @@ AboutRun about_run(const Launch& launch, const std::string& name) {
 }  // namespace
 
 Supervisor::Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet,
-                       const std::string& name)
+                       const std::string& name, std::set<std::string> hosted)
     : launch_(launch),
       run_dir_(about_run(launch, name)),
       guard_(run_dir_.path()),
       places_{program_folder, run_dir_.path(), launch.options.out},
       quiet_(quiet),
+      hosted_(std::move(hosted)),
       progress_(quiet, expected_duration_s(launch, world)) {}
 
 RunReport Supervisor::run() {
@@ -58,7 +60,7 @@ RunReport Supervisor::run() {
   }
   // All programs are known before the first starts.
   for (const auto& process : launch_.processes) {
-    if (!process.external) {
+    if (!process.external && !hosted_.contains(process.name)) {
       process_command(launch_, process, places_, "");
     }
   }
@@ -96,7 +98,7 @@ void Supervisor::make_keys() {
 void Supervisor::start_clock() {
   make_keys();
   FileWatch watch(places_.run_dir);
-  start(clock(), clock_command(launch_, places_));
+  start(clock(), clock_command(launch_, places_, hosted_));
   const std::string file = run_dir_.file("clock.endpoint");
   const auto until = began_ + std::chrono::duration_cast<steady_clock::duration>(
                                   std::chrono::duration<double>(launch_.clock.connect_timeout_s));
@@ -134,7 +136,7 @@ void Supervisor::say_where() const {
 
 void Supervisor::start_members() {
   for (auto& member : members_) {
-    if (member.spec != nullptr && !member.spec->external) {
+    if (member.spec != nullptr && !member.spec->external && !hosted_.contains(member.name)) {
       start(member, process_command(launch_, *member.spec, places_, clock_endpoint_));
     }
   }
@@ -190,14 +192,10 @@ void Supervisor::on_ended(const Reaped& reaped) {
   member.state = member.loss ? "LOST" : !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
   if (!fault) {
     member.left_at = now;
-    if (ending_ == Ending::kNo && member.spec->may_be_lost) lose(member, "left before the end of the run");
   } else if (fault->code == kExitAssertionFailed) {
     if (!ended_as_expected(member.name)) {
       member.fault = fault;
-      if (member.name != "expect") {  // which says it in expect.json
-        const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
-        member.fault->message += last_words.empty() ? "" : ": " + last_words;
-      }
+      if (member.name != "expect") member.fault->message += last_words(member);  // which says it in expect.json
       verdict_.assertion_failed(member.name, member.fault->message);
     }
   } else if (member.spec->observer) {
@@ -205,10 +203,7 @@ void Supervisor::on_ended(const Reaped& reaped) {
       member.respawn_at = now + kRespawnAfter;
     }
   } else if (!by_us()) {
-    if (member.child->ending()->signal == 0 && fault->code != kExitUserError) {
-      const std::string last_words = tail(places_.out + "/log/" + member.name + ".log", 1);
-      fault->message += last_words.empty() ? "" : ": " + last_words;
-    }
+    if (member.child->ending()->signal == 0 && fault->code != kExitUserError) fault->message += last_words(member);
     if (member.spec->may_be_lost && lose(member, fault->message)) return;
     member.fault = fault;
     noticed_.push_back(*fault);
@@ -223,7 +218,9 @@ void Supervisor::on_clock_ended(Member& member) {
   auto fault = fault_of("clock", true, *member.child->ending());
   const auto now = steady_clock::now();
   member.state = !fault ? "DONE" : by_us() ? "STOPPED" : "FAILED";
-  if (const auto reported = read_clock_report(places_.out)) {
+  const auto reported = read_clock_report(places_.out);
+  on_hosted_ended(reported);
+  if (reported) {
     sim_s_ = reported->sim_s;
     note_losses(reported->losses, now);
     if (fault && reported->exit_code == fault->code) {
@@ -243,6 +240,33 @@ void Supervisor::on_clock_ended(Member& member) {
         other.child->send(SIGTERM);
       }
     }
+  }
+}
+
+/// The last line that it logged, after a colon; of one in the clock's program, among those of others.
+std::string Supervisor::last_words(const Member& member) const {
+  const bool hosted = hosted_.contains(member.name);
+  std::string words = tail(places_.out + "/log/" + (hosted ? "clock" : member.name) + ".log", hosted ? kLinesOfAll : 1);
+  if (hosted) {
+    const std::size_t own = words.rfind(" " + member.name + " ");
+    if (own == std::string::npos) return "";
+    words = words.substr(words.rfind('\n', own) + 1);
+    words = words.substr(0, words.find('\n'));
+  }
+  return words.empty() ? "" : ": " + words;
+}
+
+/// With the clock, in whose program they were.
+void Supervisor::on_hosted_ended(const std::optional<ClockReport>& reported) {
+  const bool well = clock().state == "DONE";
+  for (Member& member : members_) {
+    if (!hosted_.contains(member.name)) continue;
+    const bool to_blame = reported && reported->culprit == member.name;
+    const bool took_leave = well && reported && reported->exit_codes.contains(member.name);
+    if (to_blame) member.fault = Fault{reported->exit_code, member.name, reported->message};
+    if (took_leave) member.fault = fault_of(member.name, true, {reported->exit_codes.at(member.name), 0});
+    if (took_leave) verdict_.assertion_failed(member.name, member.fault->message += last_words(member));
+    member.state = member.fault ? "FAILED" : well ? "DONE" : "STOPPED";
   }
 }
 
@@ -389,8 +413,11 @@ RunReport Supervisor::report() const {
     process.name = member.name;
     process.state = member.state;
     process.external = member.spec != nullptr && member.spec->external;
+    process.hosted = hosted_.contains(member.name);
     process.fault = member.fault;
     process.loss = member.loss;
+    if (process.hosted && (member.state == "DONE" || member.state == "FAILED"))
+      process.ending = launcher::Ending{member.fault ? member.fault->code : kExitOk, 0};
     if (member.child) {
       process.ending = member.child->ending();
       process.max_rss_kib = member.child->max_rss_kib();

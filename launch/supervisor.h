@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ namespace ensonify::launcher {
 /// ended, Ctrl-C) and five times a second asks the clock how far it is.
 class Supervisor {
  public:
-  /// `name` is what tools may call the run by, or "".
+  /// `name` is what tools may call the run by, or ""; `hosted` are the processes that live in the clock's program.
   Supervisor(const Launch& launch, const World& world, const std::string& program_folder, bool quiet,
-             const std::string& name = "");
+             const std::string& name = "", std::set<std::string> hosted = {});
 
   /// Runs the launch to its end; nothing that it started is left. Throws UserError for what cannot be started.
   RunReport run();
@@ -58,6 +59,8 @@ class Supervisor {
   void take_signals();
   void on_ended(const Reaped& reaped);
   void on_clock_ended(Member& clock);
+  std::string last_words(const Member& member) const;
+  void on_hosted_ended(const std::optional<ClockReport>& reported);
   void ask_for_the_clocks_word(WallTime now);
   void judge();
   std::optional<launcher::Ending> ending_of(const std::string& process) const;
@@ -88,6 +91,7 @@ class Supervisor {
   Guard guard_;
   RunPlaces places_;
   bool quiet_;
+  std::set<std::string> hosted_;
   std::optional<bus::Keys> keys_;
   Progress progress_;
   std::vector<Member> members_;  // the clock first

@@ -17,6 +17,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kAskEvery{200};
 constexpr milliseconds kWatchMemoryEvery{500};
 constexpr milliseconds kLeftTooEarly{2000};
+constexpr milliseconds kLastWords{300};  // of one that has left, on their way to the clock
 constexpr milliseconds kClocksAnswer{500};
 constexpr int kAsks = 4;
 constexpr milliseconds kGraceOfLost{2000};  // it may be about to end in its own words
@@ -66,14 +67,18 @@ void Supervisor::read_status(const std::string& text) {
   }
 }
 
+/// By what the clock said afterwards: it may know why one left, and on its way out, on a machine that swaps, it says
+/// nothing.
 void Supervisor::check_leavers(WallTime now) {
   for (auto& member : members_) {
-    // By what the clock said after that: one that is itself on its way out, on a machine that swaps, says nothing.
-    const bool early =
-        member.left_at && !member.loss && last_answer_ > *member.left_at + kLeftTooEarly && !member.spec->observer;
-    if (early && !member.fault && clock_state_ != "DONE" && clock_state_ != "FAILED") {
+    const bool explained = !member.left_at || member.loss || member.fault || member.spec->observer;
+    if (explained || clock_state_ == "DONE" || clock_state_ == "FAILED") continue;
+    const std::string why = "left before the end of the run";
+    const auto since = last_answer_ - *member.left_at;
+    if (since > kLastWords && member.spec->may_be_lost && lose(member, why)) continue;
+    if (since > kLeftTooEarly) {
       member.state = "FAILED";
-      member.fault = Fault{kExitDied, member.name, "left before the end of the run"};
+      member.fault = Fault{kExitDied, member.name, why};
       noticed_.push_back(*member.fault);
       judge_at_ = now;
     }

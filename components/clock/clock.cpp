@@ -17,7 +17,7 @@ using std::chrono::steady_clock;
 
 std::atomic<bool> stop_requested{false};
 
-constexpr std::chrono::seconds kHealthEvery{1};  // wall time; Router::wait returns often enough, also while paused
+constexpr std::chrono::seconds kHealthEvery{1};  // wall time; wait() returns often enough, also while paused
 
 WallTime after(WallTime t, double s) {
   return t + std::chrono::duration_cast<WallTime::duration>(std::chrono::duration<double>(s));
@@ -27,10 +27,10 @@ WallTime after(WallTime t, double s) {
 
 void request_stop() { stop_requested = true; }
 
-Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir, ReadLaunch read)
+Clock::Clock(const Launch& launch, bus::ControlPlane& control, std::filesystem::path out_dir, ReadLaunch read)
     : first_(launch),
       launch_(launch),
-      router_(router),
+      control_(control),
       read_(std::move(read)),
       registry_(launch),
       pacer_(launch.clock.rate, from_seconds(launch.clock.slip_after_s)),
@@ -40,7 +40,7 @@ Clock::Clock(const Launch& launch, bus::Router& router, std::filesystem::path ou
 
 int Clock::run() {
   while (phase_ != Phase::kOver) {
-    const auto message = router_.wait(next_alarm());
+    const auto message = control_.wait(next_alarm());
     if (message) on_message(*message);
     on_time(steady_clock::now());
   }
@@ -67,7 +67,7 @@ std::optional<WallTime> Clock::next_alarm() const {
 }
 
 /// What ends or moves a run counts from those alone who have joined it; everybody else gets an answer.
-void Clock::on_message(const bus::Router::Message& message) {
+void Clock::on_message(const bus::ControlPlane::Message& message) {
   const std::string kind = protocol::kind_of(message.text);
   if (kind == "hello") return on_hello(message.from, message.text);
   if (kind != "done" && kind != "proven" && kind != "ready" && kind != "failed" && kind != "unusable" && kind != "bye")
@@ -99,6 +99,7 @@ void Clock::on_word(std::size_t rank, const std::string& kind, const std::string
     on_unusable(rank, protocol::read_unusable(text));
   } else if (phase_ == Phase::kEnding) {
     left_[rank] = true;
+    epoch_.accounts[rank].exit_code = protocol::read_code(text);
   } else {
     fault(rank, kExitDied, name + " left before the end of the run");
   }
@@ -114,7 +115,7 @@ void Clock::on_hello(const std::string& from, const std::string& text) {
     }
   }
   if (!refusal.empty()) {
-    router_.send(from, protocol::encode_refused({refusal}));
+    control_.send(from, protocol::encode_refused({refusal}));
   } else if (registry_.complete()) {
     gather();
   }
@@ -147,7 +148,8 @@ void Clock::gather() {
   phase_ = Phase::kProving;
   phase_began_ = steady_clock::now();
   for (std::size_t rank = 0; rank < registry_.size(); ++rank) {
-    router_.send(epoch_.accounts[rank].name, protocol::encode(registry_.welcome(rank), registry_.declarations()[rank]));
+    control_.send(epoch_.accounts[rank].name,
+                  protocol::encode(registry_.welcome(rank), registry_.declarations()[rank]));
   }
   if (registry_.ready()) start();
 }
@@ -178,7 +180,7 @@ void Clock::hand_out() {
     for (const std::uint32_t topic : epoch_.inputs[grant.participant])
       message.inputs.emplace_back(topic, epoch_.referee->published(topic));
     ++epoch_.accounts[grant.participant].grants;
-    router_.send(epoch_.accounts[grant.participant].name, protocol::encode(message));
+    control_.send(epoch_.accounts[grant.participant].name, protocol::encode(message));
   }
   if (!epoch_.conductor->finished() || lose_doomed()) return;
   if (next_) begin_next();
@@ -224,7 +226,7 @@ void Clock::note_late(std::size_t rank, bool late) {
   Account& account = epoch_.accounts[rank];
   if (late == account.late) return;
   account.late = late;
-  if (!registry_.declarations()[rank].lives.empty()) router_.send(account.name, protocol::encode_late(late));
+  if (!registry_.declarations()[rank].lives.empty()) control_.send(account.name, protocol::encode_late(late));
 }
 
 /// The culprit that a participant names must be one whose messages it takes.
@@ -320,7 +322,7 @@ void Clock::end(int code) {
 
 void Clock::send_to_all(const std::string& text) {
   for (const protocol::Hello& hello : registry_.hellos()) {
-    if (!hello.declaration.process.empty()) router_.send(hello.declaration.process, text);
+    if (!hello.declaration.process.empty()) control_.send(hello.declaration.process, text);
   }
 }
 

@@ -30,6 +30,7 @@ struct Account {
   std::string doomed;  // why it is to be lost at a time to come; "": it is not
   std::string lost;    // why the run goes on without it; "": it takes part
   SimTime lost_at{0};  // before which its last event is
+  int exit_code = 0;   // as it took leave
 };
 
 /// A run is late when sim time stands this far behind paced time.
@@ -83,7 +84,7 @@ class Clock {
   /// Reads a launch whole, with its scenario; throws ConfigError. For resets: the clock itself sees no world.
   using ReadLaunch = std::function<Launch(const LaunchOptions&)>;
 
-  Clock(const Launch& launch, bus::Router& router, std::filesystem::path out_dir, ReadLaunch read);
+  Clock(const Launch& launch, bus::ControlPlane& control, std::filesystem::path out_dir, ReadLaunch read);
 
   /// Runs to the end; returns the run's exit code.
   int run();
@@ -92,14 +93,14 @@ class Clock {
   enum class Phase { kJoining, kProving, kRunning, kEnding, kOver };
 
   std::optional<WallTime> next_alarm() const;
-  void on_message(const bus::Router::Message& message);
+  void on_message(const bus::ControlPlane::Message& message);
   void on_hello(const std::string& from, const std::string& text);
   void on_word(std::size_t rank, const std::string& kind, const std::string& text);
   void on_proven(const std::string& from, const std::string& text);
   void on_done(std::size_t rank, const protocol::Done& done);
   void on_failed(std::size_t rank, const protocol::Failed& failed);
   void on_unusable(std::size_t rank, const protocol::Unusable& unusable);
-  void on_request(const bus::Router::Message& message, const std::string& kind);
+  void on_request(const bus::ControlPlane::Message& message, const std::string& kind);
   // Each returns what is wrong with the request, or "".
   std::string ask_reset(const nlohmann::json& request, nlohmann::json& answer);
   std::string look_up(const nlohmann::json& request, nlohmann::json& answer) const;
@@ -137,7 +138,7 @@ class Clock {
 
   const Launch first_;  // the launch as it was started
   Launch launch_;       // as the present epoch has it
-  bus::Router& router_;
+  bus::ControlPlane& control_;
   ReadLaunch read_;
   Registry registry_;
   Pacer pacer_;

@@ -30,7 +30,7 @@ bool Clock::lose(std::size_t rank, const std::string& why) {
   if (!goes_on) return true;
   for (std::size_t reader = 0; reader < registry_.size(); ++reader) {
     if (registry_.feeds(rank, reader) && !is_lost(reader))
-      router_.send(epoch_.accounts[reader].name, protocol::encode_lost(name));
+      control_.send(epoch_.accounts[reader].name, protocol::encode_lost(name));
   }
   epoch_.conductor->done(rank, kNever);
   epoch_.last_progress = std::chrono::steady_clock::now();

@@ -1,5 +1,6 @@
 // What the clock gives people: stall reports, status, registry, the report of a finished run.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -52,6 +53,7 @@ json to_json(const Account& a) {
             {"cost_s", static_cast<double>(a.cost_ns) * 1e-9},
             {"late_events", a.late_events},
             {"worst_lateness_s", seconds(a.worst_lateness)}};
+  if (a.exit_code != 0) j["exit_code"] = a.exit_code;
   if (!a.lost.empty()) j["lost"] = {{"why", a.lost}, {"at_ns", a.lost_at.count()}};
   return j;
 }
@@ -73,8 +75,10 @@ json live_topic(const protocol::Hello& hello, const LivePort& port) {
 
 }  // namespace
 
-/// Of a process on another host nothing is known: its number may be anybody's here.
+/// Of a process on another host nothing is known: its number may be anybody's here. Of one in this program it says
+/// nothing that the clock's own is running.
 char Clock::state_of(std::size_t p) const {
+  if (epoch_.accounts[p].pid == ::getpid()) return '?';
   const std::string& endpoint = registry_.hellos()[p].sync_endpoint;
   const bool is_here = endpoint.starts_with("ipc://") || endpoint.starts_with("tcp://127.") ||
                        endpoint.starts_with("tcp://" + launch_.clock.address + ":");
@@ -193,7 +197,7 @@ std::string Clock::registry_json() const {
                       {"component", "clock"},
                       {"max_bytes", kHealthBytes},
                       {"rate", {1, 1}},
-                      {"live", router_.live_endpoint()},
+                      {"live", control_.live_endpoint()},
                       {"sync", ""},
                       {"published", epoch_.health_count},
                       {"subscribers", json::array()}});
@@ -242,7 +246,7 @@ void Clock::report_health(WallTime now) {
   packet.envelope.type_hash = msg::type_hash(msg::ClockHealth::kType);
   packet.envelope.seq = epoch_.health_count++;
   packet.envelope.t_sim_ns = report.stamp_ns;
-  router_.publish_live(packet);
+  control_.publish_live(packet);
   epoch_.health_reported = now;
   epoch_.health_reported_at = SimTime{report.stamp_ns};
 }

@@ -23,13 +23,13 @@ constexpr SimTime kLongestStep = std::chrono::seconds(10'000'000);
 
 /// A tool's mistake is answered, and costs nobody anything.
 void Clock::refuse(const std::string& to, const std::string& kind, const std::string& why) {
-  router_.send(to, nlohmann::json{{"kind", kind}, {"ok", false}, {"error", why}}.dump());
+  control_.send(to, nlohmann::json{{"kind", kind}, {"ok", false}, {"error", why}}.dump());
 }
 
-void Clock::on_request(const bus::Router::Message& message, const std::string& kind) {
+void Clock::on_request(const bus::ControlPlane::Message& message, const std::string& kind) {
   const std::string& from = message.from;
-  if (kind == "status") return void(router_.send(from, status_json()));
-  if (kind == "registry") return void(router_.send(from, registry_json()));
+  if (kind == "status") return void(control_.send(from, status_json()));
+  if (kind == "registry") return void(control_.send(from, registry_json()));
   const json request = json::parse(message.text, nullptr, false);
   json answer = {{"kind", kind}, {"ok", true}};
   const bool steers = kind != "get";
@@ -39,7 +39,7 @@ void Clock::on_request(const bus::Router::Message& message, const std::string& k
     log::line("clock", epoch_.conductor ? std::min(epoch_.conductor->now(), epoch_.conductor->end()) : SimTime{0}, kind,
               fmt::format("asked_by=\"{}\"", registry_.rank_of(from) ? from : tool));
   }
-  if (problem.empty()) router_.send(from, answer.dump(-1, ' ', false, json::error_handler_t::replace));
+  if (problem.empty()) control_.send(from, answer.dump(-1, ' ', false, json::error_handler_t::replace));
   else refuse(from, kind, problem);
 }
 

@@ -116,7 +116,9 @@ std::vector<std::string> read_tokens(std::string_view json);
 std::string encode_refused(const std::vector<std::string>& problems);
 /// The texts under "problems" of a refusal.
 std::vector<std::string> read_problems(std::string_view json);
-/// "code" of an end.
+/// {"kind":"bye","code":..}: the process's own exit code, 0 where it says none.
+std::string encode_bye(int code);
+/// "code" of an end, or of a bye.
 int read_code(std::string_view json);
 
 }  // namespace ensonify::protocol

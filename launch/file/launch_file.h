@@ -30,6 +30,8 @@ struct LaunchOptions {
   std::vector<std::string> sets;  // "bow.frequency_hz=2e5": process, scenario section or clock, then the key
   std::string record;             // adds a recorder that writes this file; "" adds none
   std::string out = "out";        // folder of results, `$(out)` in launch files
+
+  bool operator==(const LaunchOptions&) const = default;
 };
 
 /// Adds LAUNCH (or --launch, for the processes of a run), --arg, --set, --record and --out to a program's options.

@@ -67,14 +67,14 @@ class SameBytes(Epochs):
             return f"{value.dtype}{value.shape}{hashlib.sha256(value.tobytes()).hexdigest()}"
         return repr(value)
 
-    def check(self, launch, name):
-        """First another scene, then one with another seed, then the one that is compared."""
+    def check(self, launch, name, *options):
+        """First another scene, then one with another seed, then the one that is compared. `options` of the run with epochs."""
         until_s = ENDS_S.get(name, UNTIL_S)
         fresh = self.start(launch, "--set", "seed=7", "--record", self.folder / f"fresh_of_{name}.mcap", out=f"{name}_fresh")
         with self.observer() as observer:
             self.wait_until(fresh, observer, until_s)
         self.end(fresh)
-        run = self.start(launch, "--record", self.folder / f"epochs_of_{name}.mcap", out=name)
+        run = self.start(launch, *options, "--record", self.folder / f"epochs_of_{name}.mcap", out=name)
         with self.observer() as observer:
             self.wait_until(run, observer, 1.0)
             self.assertEqual(observer.reset({"seed": 3, "water.sound_speed_mps": 1520} if name == "bay" else {"seed": 3}), 2)
@@ -91,8 +91,14 @@ class SameBytes(Epochs):
         first, _ = self.messages(self.folder / f"epochs_of_{name}.mcap", 1.0)  # nothing of it is lost
         self.assertTrue(first)
 
+    def bay(self):
+        return self.write("bay.yaml", bay(600).replace("  recorder: { run: recorder, config: { file: run.mcap, topics: all } }\n", ""))
+
     def test_a_survey_with_a_multibeam(self):
-        self.check(self.write("bay.yaml", bay(600).replace("  recorder: { run: recorder, config: { file: run.mcap, topics: all } }\n", "")), "bay")
+        self.check(self.bay(), "bay")
+
+    def test_the_same_in_the_clocks_program(self):
+        self.check(self.bay(), "bay", "--hosted")
 
     def test_shipped_launches(self):
         for name in LAUNCHES:

@@ -25,7 +25,7 @@ class Env(gymnasium.Env):
     """A process of a launch, as an environment: the one that the launch file calls `agent` and marks `external: true`.
 
     observe, act, reward, done: as of ensonify.agent.Agent; done ends the episode
-    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, fps, as of ensonify.episodes.Episodes
+    keywords: truth, rate, seconds, image, set, agent, out, settle_s, patience_s, render_mode, fps, hosted, as of ensonify.episodes.Episodes
     """
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 10}

@@ -68,12 +68,12 @@ def need_external(clock: str, file: Any, agent: str) -> None:
 
 class Episode:
     """Starts `file` with us as its process `agent`, which reads `topics` and publishes on `ports`, each a name to its message type.
-    Of the topics in `kept` it keeps so many of the newest messages."""
+    Of the topics in `kept` it keeps so many of the newest messages. `hosted` as of ensonify.launching.Launch."""
 
     def __init__(self, file: Any, agent: str, out: pathlib.Path, settings: Mapping[str, Any], topics: Mapping[str, type],
-                 kept: Mapping[str, int], ports: Mapping[str, type], rate: Any, patience_s: float):
+                 kept: Mapping[str, int], ports: Mapping[str, type], rate: Any, patience_s: float, hosted: bool):
         self._settings = texts_of(settings)  # of the launch, which every epoch has
-        self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings})
+        self._launch = Launch(file, out, {"clock.progress_deadline_s": DEADLINE_S, **settings}, hosted=hosted)
         try:
             need_external(self._launch.clock, file, agent)
         except BaseException:

@@ -35,12 +35,14 @@ class Episodes:
     out: folder in which episodes leave their results (0000, 0001, ...); without it they leave none
     settle_s: sim time within which all topics must have come for the first time
     patience_s: wall time that the launch may take for one step
+    hosted: the launch's own processes run in one program where they can (`ensonify run --hosted`): the same bytes, and steps without a ping
+        cost a fraction; those with large pings lose what processes do side by side
     """
 
     def __init__(self, launch: str | os.PathLike, agents: Mapping[str, Agent], *, truth: Mapping[str, type] | None = None,
                  rate: Any = 10, seconds: float = math.inf, image: str | Callable[[Seen], np.ndarray] | None = None, set: Mapping[str, Any] | None = None,
                  agent: str = "agent", out: str | os.PathLike | None = None, settle_s: float = 10.0, patience_s: float = 300.0,
-                 render_mode: str | None = None, fps: float = 10):
+                 render_mode: str | None = None, fps: float = 10, hosted: bool = False):
         truth = mapping("truth", truth or {}, "topics and their message types")
         for topic, message_type in truth.items():
             one_of(f"truth: {topic}", message_type, (type,), "a message type, such as ensonify.Altitude")
@@ -66,6 +68,7 @@ class Episodes:
         self._launch, self._process, self._rate, self._seconds = launch, agent, rate, positive("seconds", seconds)
         self._set, self._out = mapping("set", set or {}, "parameters and their values"), out
         self._settle_s, self._patience_s = positive("settle_s", settle_s), positive("patience_s", patience_s)
+        self._hosted = one_of("hosted", hosted, (bool,), "True or False")
         self._count = 0  # so far
         self._running = Running()
         self._end_at_exit = weakref.finalize(self, self._running.end)
@@ -84,7 +87,7 @@ class Episodes:
         self._ended = "there is no episode yet"
         settings["seed"] = seed
         seen = self._running.begin(lambda out: Episode(
-            self._launch, self._process, out, settings, self._topics, self._kept, self._ports, self._rate, self._patience_s),
+            self._launch, self._process, out, settings, self._topics, self._kept, self._ports, self._rate, self._patience_s, self._hosted),
             settings, self._folder())
         while missing := [topic for topic in self._topics if seen[topic] is None]:
             if seen.t_s >= self._settle_s:

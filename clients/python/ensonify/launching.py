@@ -42,12 +42,14 @@ def plain(value: Any) -> Any:
 
 
 class Launch:
-    """A launch file that runs as fast as it can, with its results in `out`. `clock` is where to take part."""
+    """A launch file that runs as fast as it can, with its results in `out`. `clock` is where to take part.
+    hosted: our own processes run in the clock's program where they can"""
 
-    def __init__(self, file: str | os.PathLike, out: pathlib.Path, settings: Mapping[str, Any]):
+    def __init__(self, file: str | os.PathLike, out: pathlib.Path, settings: Mapping[str, Any], *, hosted: bool = False):
         self._out = out
         out.mkdir(parents=True, exist_ok=True)
         words = [program(), "run", os.fspath(file), "--free", "--out", os.fspath(out)]
+        words += ["--hosted"] if hosted else []
         for assignment in assignments(settings):
             words += ["--set", assignment]
         with open(out / LOG, "wb") as log:

@@ -109,6 +109,7 @@ class Spaces(unittest.TestCase):
                 ({"truth": ["judge/altitude"]}, TypeError, "^truth is "),
                 ({"truth": {"judge/altitude": None}}, TypeError, "^truth: judge/altitude is None; allowed: a message type, such as ensonify.Altitude$"),
                 ({"set": ["a=1"]}, TypeError, "^set is "),
+                ({"hosted": 1}, TypeError, "^hosted is 1; allowed: True or False$"),
                 ({"seconds": 0}, ValueError, "^seconds is 0; it must be a number above 0$"),
                 ({"patience_s": "long"}, ValueError, "^patience_s is 'long'; it must be a number above 0$")):
             with self.assertRaisesRegex(error, text):
@@ -184,9 +185,7 @@ class Episodes(unittest.TestCase):
             env.close()
 
     def test_the_same_seed_and_actions_give_the_same_observations(self):
-        env = self.make()
-
-        def episode(seed):
+        def episode(seed, env):
             seen, info = env.reset(seed=seed)
             self.assertEqual(info["seed"], seed)
             observed, over = [seen], False
@@ -199,9 +198,11 @@ class Episodes(unittest.TestCase):
             self.assertEqual(len(observed), 21)
             return [{key: value.tobytes() for key, value in one.items()} for one in observed]
 
-        first = episode(3)
-        self.assertEqual(first, episode(3))
-        self.assertNotEqual(first, episode(4))
+        apart, hosted = self.make(), self.make(hosted=True)
+        first, other = episode(3, apart), episode(4, apart)
+        self.assertEqual(first, episode(3, apart))
+        self.assertNotEqual(first, other)
+        self.assertEqual([episode(4, hosted), episode(3, hosted)], [other, first])
 
     def test_vector_environments_run_several_launches(self):
         for mode in ("sync", "async"):

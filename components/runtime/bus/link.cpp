@@ -22,8 +22,9 @@ struct Link::Sockets {
         monitor(context, zmq::socket_type::pair) {
     clock.set(zmq::sockopt::routing_id, name);
     clock.set(zmq::sockopt::rcvtimeo, kPollMs);
-    connect_control(clock, clock_endpoint, keys);
     if (keys) gate.emplace(context, *keys);
+    if (clock_endpoint.empty()) return;
+    connect_control(clock, clock_endpoint, keys);
     const std::string watch = "inproc://clock-monitor";
     if (zmq_socket_monitor(clock.handle(), watch.c_str(), ZMQ_EVENT_DISCONNECTED) == 0) monitor.connect(watch);
   }
@@ -99,13 +100,17 @@ Link::Event Link::wait() {
     if (items[0].revents && sockets_->clock.recv(message, zmq::recv_flags::dontwait)) {
       return {Event::kControl, message.to_string(), {}};
     }
-    Event event{Event::kTokens, {}, {}};
-    for (const std::string& asked : sockets_->participants.read(sockets_->sync)) {
-      if (asked.starts_with('~')) event.tokens.push_back(asked.substr(1));
-    }
-    if (!event.tokens.empty()) return event;
+    if (auto tokens = take_tokens(); !tokens.empty()) return {Event::kTokens, {}, std::move(tokens)};
     if (items[2].revents) return {Event::kClockLost, {}, {}};
   }
+}
+
+std::vector<std::string> Link::take_tokens() {
+  std::vector<std::string> tokens;
+  for (const std::string& asked : sockets_->participants.read(sockets_->sync)) {
+    if (asked.starts_with('~')) tokens.push_back(asked.substr(1));
+  }
+  return tokens;
 }
 
 void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch) {
@@ -113,10 +118,11 @@ void Link::subscribe(const std::vector<Subscription>& subscriptions, std::uint32
   else receiver_ = std::make_unique<Receiver>(sockets_->context, subscriptions, epoch, sockets_->keys);
 }
 
-void Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience,
-                        const std::function<void()>& meanwhile) {
-  receiver_->wait_arrived(counts, patience, meanwhile);
+Link::Arrived Link::wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience) {
+  return receiver_->wait_arrived(counts, patience);
 }
+
+void Link::refuse_missing(const TopicCounts& counts) { receiver_->refuse_missing(counts); }
 
 void Link::lost(const std::string& publisher) { receiver_->lost(publisher); }
 

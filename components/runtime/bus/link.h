@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +55,8 @@ class Receiver;
 /// that a thread of its own drains at all times. ZeroMQ is seen in this folder only.
 class Link {
  public:
-  /// Connects to the clock and binds. Throws UserError for an address that cannot be bound or a path over 107 bytes.
+  /// Connects to the clock and binds; "" for one whose clock is in this process, and talks to it otherwise. Throws
+  /// UserError for an address that cannot be bound or a path over 107 bytes.
   Link(const std::string& name, const std::string& clock_endpoint, const Address& address, int queue);
   ~Link();
 
@@ -71,6 +71,8 @@ class Link {
     std::vector<std::string> tokens;  // subscribers that have reached our sync socket
   };
   Event wait();
+  /// Subscribers that have reached our sync socket since the last call, by their tokens.
+  std::vector<std::string> take_tokens();
 
   /// From any thread: whatever waits in this Link, or will, throws. Nothing can be sent any more.
   void interrupt();
@@ -85,12 +87,12 @@ class Link {
   /// Starts receiving. The token of each topic is subscribed after the topic itself. Again, for a later epoch: the same
   /// topics of the same publishers; what has come of the epoch before is dropped, and so is what still comes of it.
   void subscribe(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
-  /// Blocks until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw, and
-  /// PeerError when nothing more has come for `patience`; time in which this process was stopped does not count.
+  /// Waits until the first `count` messages of each topic id have arrived. Throws what the receiving thread threw.
   using TopicCounts = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
-  /// `meanwhile` is called now and then while it waits.
-  void wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience = std::chrono::hours(1),
-                    const std::function<void()>& meanwhile = {});
+  enum class Arrived { kAll, kSome, kNothing };  // at the latest after `patience`
+  Arrived wait_arrived(const TopicCounts& counts, std::chrono::milliseconds patience = std::chrono::hours(1));
+  /// What has not arrived will not be awaited any more: PeerError, or for who may be lost the end of the topic.
+  void refuse_missing(const TopicCounts& counts);
   /// This publisher is no more. What it has sent still comes for a second; then nothing more is awaited.
   void lost(const std::string& publisher);
   /// No message can come with a later time than this: a sender that goes beyond it is refused. kNever: nothing will be

@@ -10,7 +10,7 @@
 namespace ensonify::bus {
 namespace {
 constexpr std::uint32_t kFirstEpoch = 1;
-constexpr int kPollMs = 500;  // how soon an error of the thread is noticed
+constexpr std::chrono::milliseconds kPoll{500};  // how soon it is noticed that nothing more comes of who is lost
 constexpr std::chrono::seconds kAfterLoss{1};
 constexpr std::size_t kLeastLargestFrame = 1 << 24;
 }  // namespace
@@ -127,6 +127,7 @@ void Receiver::accept(Input& input, msg::Packet&& packet) {
 
 /// What was counted and has not come.
 void Receiver::refuse_missing(const Link::TopicCounts& counts) {
+  const std::lock_guard lock(mutex_);
   for (const auto& [id, count] : counts) {
     const auto found = inputs_.find(id);
     if (count == 0) continue;
@@ -175,27 +176,20 @@ void Receiver::fail(std::exception_ptr why) {
   news_.notify_one();
 }
 
-void Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience,
-                            const std::function<void()>& meanwhile) {
+Link::Arrived Receiver::wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
+  const auto until = std::chrono::steady_clock::now() + patience;
+  const std::size_t before = packets_.size();
   awaited_ = &counts;
-  std::size_t before = packets_.size();
-  for (std::chrono::milliseconds waited{0};
-       !news_.wait_for(lock, std::chrono::milliseconds(kPollMs), [&] { return error_ || all_arrived(counts); });) {
-    waited = packets_.size() == before ? waited + std::chrono::milliseconds(kPollMs) : std::chrono::milliseconds(0);
-    before = packets_.size();
-    if (meanwhile) {
-      lock.unlock();
-      meanwhile();
-      lock.lock();
-    }
+  while (!news_.wait_until(lock, std::min(until, std::chrono::steady_clock::now() + kPoll),
+                           [&] { return error_ || all_arrived(counts); })) {
     close_lost(counts);
-    if (waited < patience) continue;
-    awaited_ = nullptr;
-    refuse_missing(counts);
+    if (std::chrono::steady_clock::now() >= until) break;
   }
   awaited_ = nullptr;
   if (error_) std::rethrow_exception(error_);
+  if (all_arrived(counts)) return Link::Arrived::kAll;
+  return packets_.size() == before ? Link::Arrived::kNothing : Link::Arrived::kSome;
 }
 
 std::vector<msg::Packet> Receiver::take() {

@@ -29,8 +29,8 @@ class Receiver {
 
   /// Expects an epoch's messages from its first on.
   void begin(const std::vector<Subscription>& subscriptions, std::uint32_t epoch);
-  void wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience,
-                    const std::function<void()>& meanwhile);
+  Link::Arrived wait_arrived(const Link::TopicCounts& counts, std::chrono::milliseconds patience);
+  void refuse_missing(const Link::TopicCounts& counts);
   void lost(const std::string& publisher);
   void expect_until(SimTime t) { latest_ = t.count(); }
   std::vector<msg::Packet> take();
@@ -54,7 +54,6 @@ class Receiver {
   void judge(std::vector<zmq::message_t>&& frames);
   void accept(Input& input, msg::Packet&& packet);
   void refuse(Input& input, const PeerError& why, std::optional<SimTime> t = {});
-  void refuse_missing(const Link::TopicCounts& counts);
   bool all_arrived(const Link::TopicCounts& counts) const;
   void close_lost(const Link::TopicCounts& counts);
   void fail(std::exception_ptr why);

@@ -81,12 +81,12 @@ const std::string& Router::endpoint() const { return sockets_->endpoint; }
 
 std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
   using namespace std::chrono;
-  Message message;
   if (!until || *until - steady_clock::now() > kCoarse) {
+    Message message;
     if (receive(sockets_->socket, message, zmq::recv_flags::none)) return message;
     return std::nullopt;
   }
-  if (receive(sockets_->socket, message, zmq::recv_flags::dontwait)) return message;
+  if (auto message = take()) return message;
   const auto left = std::max(duration_cast<nanoseconds>(*until - steady_clock::now()), nanoseconds(1)).count();
   const itimerspec alarm{{0, 0}, {left / 1'000'000'000, left % 1'000'000'000}};
   timerfd_settime(sockets_->alarm, 0, &alarm, nullptr);
@@ -94,8 +94,14 @@ std::optional<Router::Message> Router::wait(std::optional<WallTime> until) {
     zmq::pollitem_t items[] = {{sockets_->socket.handle(), 0, ZMQ_POLLIN, 0},
                                {nullptr, sockets_->alarm, ZMQ_POLLIN, 0}};
     if (zmq_poll(items, 2, -1) < 0) return std::nullopt;  // a signal
-    if (receive(sockets_->socket, message, zmq::recv_flags::dontwait)) return message;
+    if (auto message = take()) return message;
   }
+  return std::nullopt;
+}
+
+std::optional<Router::Message> Router::take() {
+  Message message;
+  if (receive(sockets_->socket, message, zmq::recv_flags::dontwait)) return message;
   return std::nullopt;
 }
 

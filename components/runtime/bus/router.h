@@ -12,15 +12,11 @@ namespace ensonify::bus {
 
 using WallTime = std::chrono::steady_clock::time_point;
 
-/// The clock's sockets: its end of the control plane, a ROUTER with mandatory routing and no handover, and a live plane
-/// for what viewers may want to know of it. It has no sync plane: nothing that it says reaches a participant as data.
-class Router {
+/// The clock's end of the control plane, and a live plane for what viewers may want to know of it. It has no sync
+/// plane: nothing that it says reaches a participant as data.
+class ControlPlane {
  public:
-  /// Binds `<run_dir>/clock` and `<run_dir>/clock.live`, or ports.
-  explicit Router(const Address& address);
-  ~Router();
-
-  const std::string& endpoint() const;
+  virtual ~ControlPlane() = default;
 
   struct Message {
     std::string from;  // routing id: a participant's name, or one that ZeroMQ made up for a tool
@@ -28,13 +24,31 @@ class Router {
     std::string address;  // of whoever sent it, over tcp
   };
   /// The next message; nothing at `until`, after a signal, or now and then before: check the time and call again.
-  std::optional<Message> wait(std::optional<WallTime> until);
+  virtual std::optional<Message> wait(std::optional<WallTime> until) = 0;
   /// False if that peer is gone.
-  bool send(const std::string& to, std::string_view text);
+  virtual bool send(const std::string& to, std::string_view text) = 0;
 
-  const std::string& live_endpoint() const;
+  virtual const std::string& live_endpoint() const = 0;
   /// To whoever watches; never waits.
-  void publish_live(const msg::Packet& packet);
+  virtual void publish_live(const msg::Packet& packet) = 0;
+};
+
+/// The control plane by sockets: a ROUTER with mandatory routing and no handover.
+class Router : public ControlPlane {
+ public:
+  /// Binds `<run_dir>/clock` and `<run_dir>/clock.live`, or ports.
+  explicit Router(const Address& address);
+  ~Router() override;
+
+  const std::string& endpoint() const;
+
+  std::optional<Message> wait(std::optional<WallTime> until) override;
+  /// What has come already.
+  std::optional<Message> take();
+  bool send(const std::string& to, std::string_view text) override;
+
+  const std::string& live_endpoint() const override;
+  void publish_live(const msg::Packet& packet) override;
 
  private:
   struct Sockets;
