@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "components/hosted_components.h"
+#include "launch/hosted_components.h"
 
 namespace ensonify::launcher {
 namespace {

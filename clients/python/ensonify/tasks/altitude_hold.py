@@ -57,6 +57,7 @@ class AltitudeHold(Env):
             "done": done,
             "seconds": 60,
             "image": Profile(),
+            "hosted": True,
             **changes})
 
 

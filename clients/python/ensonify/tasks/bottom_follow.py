@@ -63,6 +63,7 @@ class BottomFollow(Env):
             "done": done,
             "seconds": 60,
             "image": Profile(),
+            "hosted": True,
             **changes})
 
 

@@ -66,6 +66,7 @@ class KeepFormation(ParallelEnv):
             "agents": {name: auv(name) for name in ("red", "blue")},
             "truth": {"red_judge/altitude": Altitude, "blue_judge/altitude": Altitude, "red/pose": Pose, "blue/pose": Pose},
             "seconds": 60,
+            "hosted": True,
             **changes})
 
     def reset(self, seed: int | None = None, options: dict | None = None) -> tuple:

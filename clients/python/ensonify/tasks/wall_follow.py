@@ -85,6 +85,7 @@ class WallFollow(Env):
             "rate": 2,
             "seconds": 60,
             "image": lambda seen: grey(image(seen["bow/ping"])[::-1]),
+            "hosted": True,
             **changes})
 
     def reset(self, *, seed: int | None = None, options: dict | None = None) -> tuple:
