@@ -34,7 +34,8 @@ ENSONIFY_WIDE void find_parts(const Insonification& batch, CellLattice lattice, 
   float* const scattered = parts.scattered_upa2m2.data();
   float* const cross_section = parts.cross_section_m2.data();
   for (std::size_t i = first; i < end; ++i) {
-    const float sigma_solid = backscatter[i] * solid_angle_sr[i] / std::max(sin_grazing[i], 1e-3F);
+    const float sine = sin_grazing[i] < 1e-3F ? 1e-3F : sin_grazing[i];  // std::max() of places would be no vector code
+    const float sigma_solid = backscatter[i] * solid_angle_sr[i] / sine;
     scattered[i] = source_upa2m2[i] * sigma_solid;
     cross_section[i] = tube_m2[i] * sigma_solid;
   }
@@ -97,7 +98,7 @@ ENSONIFY_WIDE void find_geometry(const Insonification& batch, CellLattice lattic
   const Bits& drawn = others ? *others : bits;
   // Somewhere in the cell, from the hit, then down to the facet.
   alignas(64) Column<double> east, north, up;
-  const auto share = [](std::uint32_t bits) { return 0x1p-16 * static_cast<std::int32_t>(bits); };
+  const auto share = [](std::uint32_t whole) { return 0x1p-16 * static_cast<std::int32_t>(whole); };
   for (std::size_t i = 0; i < count; ++i) {
     const frames::Vec3 at = lattice.place(cell_of(i), share(bits.word[2][i] & 0xffff), share(bits.word[2][i] >> 16),
                                           share(bits.word[3][i] & 0xffff));
