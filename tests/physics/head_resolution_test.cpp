@@ -205,7 +205,7 @@ TEST_CASE("at 8 samples a pulse a multibeam resolves strips 1.2 x c tau / 2 apar
   for (int k = 0; k < kPlacesInPatch; ++k)
     mean_db += of_multibeam(1.2 * kCell_m, 2.0 * kAltitude_m + 0.25 * kCell_m * k / kPlacesInPatch).shallowest /
                kPlacesInPatch;
-  CHECK(mean_db > 3.0);
+  CHECK(mean_db > 3.5);  // twice as wide they leave 3.0
 }
 
 TEST_CASE("at reference, with eight samples a pulse, a forward-looking head parts them too") {
