@@ -95,7 +95,8 @@ Sector::Design Sector::prepare(const HeadSettings& settings) const {
   };
   return {sectors_of(config_, swath_rad)[number_].centre_rad,
           ShotDesign(config_.pulse(settings.pulse_length_s), 1.0 / config_.sample_rate_hz,
-                     echo::SpeckleCells(patch_m(resolution_m, config_.quality.rays),
+                     echo::SpeckleCells(echo::CellSize::for_beam(patch_m(resolution_m, config_.quality.rays),
+                                                                 config_.transmit_beamwidth_rad),
                                         {config_.world->seed, "seabed", config_.drawn_seed()}),
                      trace::RayDistribution(volume_of(config_, arrays_, number_, swath_rad), rays,
                                             {config_.world->seed, config_.process + "/rays" + suffix_of(number_)})),

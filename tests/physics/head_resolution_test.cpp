@@ -28,13 +28,12 @@ constexpr double kSixPerPulse = 6.0, kEightPerPulse = 8.0;
 constexpr double kPost_m = 0.01, kFine_m = 0.005;  // a strip is two posts wide
 constexpr int kPlaces = 16;                        // between two samples
 
-double ground_m(double slant_m) { return std::sqrt(slant_m * slant_m - kAltitude_m * kAltitude_m); }
+double ground_m(double slant_m, double altitude_m) { return std::sqrt(slant_m * slant_m - altitude_m * altitude_m); }
 
 /// Two strips across the view, `apart_m` of slant range apart.
-auto strips_at(double slant_m, double apart_m, double post_m) {
-  return [near_m = ground_m(slant_m), far_m = ground_m(slant_m + apart_m), post_m](double away_m) {
-    return std::abs(away_m - near_m) < post_m || std::abs(away_m - far_m) < post_m;
-  };
+auto strips_at(double slant_m, double apart_m, double post_m, double altitude_m = kAltitude_m) {
+  return [near_m = ground_m(slant_m, altitude_m), far_m = ground_m(slant_m + apart_m, altitude_m),
+          post_m](double away_m) { return std::abs(away_m - near_m) < post_m || std::abs(away_m - far_m) < post_m; };
 }
 
 std::vector<double> powers_of(std::span<const float> amplitudes) {
@@ -76,17 +75,17 @@ Dips of_sidescan(const SidescanConfig& config, double apart_m) {
 }
 
 /// A multibeam's beam 45 degrees to starboard, over strips along the track.
-Dips of_multibeam(double apart_m) {
+Dips of_multibeam(double apart_m, double altitude_m = kAltitude_m) {
   MultibeamConfig config;
   receive_strips(config);
   config.frequency_hz = 400e3;
   config.sample_rate_hz = kEightPerPulse / kPulse_s;
   config.quality = 4.0;
-  const double slant_m = std::numbers::sqrt2 * kAltitude_m;
-  const auto strips = strips_at(slant_m, apart_m, kFine_m);
+  const double slant_m = std::numbers::sqrt2 * altitude_m;
+  const auto strips = strips_at(slant_m, apart_m, kFine_m, altitude_m);
   TileSet tiles;
-  tiles.insert(
-      striped({kAltitude_m, kFine_m, 9.97, -0.1, 10.25, 0.1}, [&](double east_m, double) { return strips(east_m); }));
+  tiles.insert(striped({altitude_m, kFine_m, altitude_m - 0.03, -0.1, altitude_m + 0.25, 0.1},
+                       [&](double east_m, double) { return strips(east_m); }));
   const HeadSettings settings = config.start();
   const Steering steering = steer(config, config.swath_rad, {.sound_speed_mps = kSpeed_mps});
   const Multibeam head(config, 0);
@@ -94,7 +93,7 @@ Dips of_multibeam(double apart_m) {
   for (int i = 0; i < kPlaces; ++i) {
     const double sample_m = 0.5 * kSpeed_mps / config.sample_rate_hz;
     const auto truth = resting_at({std::numbers::sqrt2 * sample_m * i / kPlaces, 0.0, 0.0});
-    const PingEvent event{0, SimTime{0}, 17.0};
+    const PingEvent event{0, SimTime{0}, slant_m + 3.0};
     Multibeam::Memory memory;
     const auto beams = receive_echoes(head, event, settings, steering, truth, tiles.scene(), memory);
     const auto ping = ping_message(config, event, settings, steering,
@@ -199,6 +198,14 @@ TEST_CASE("at 8 samples a pulse a multibeam resolves strips 1.2 x c tau / 2 apar
   const Dips two = of_multibeam(1.2 * kCell_m), one = of_multibeam(0.7 * kCell_m);
   CHECK(two.shallowest > 3.0);
   CHECK(one.deepest < 1.0);
+  // Twice as far away patches are long along the track, and no wider. A strip that lies in two parts less: the mean
+  // over places in a patch.
+  constexpr int kPlacesInPatch = 4;
+  double mean_db = 0.0;
+  for (int k = 0; k < kPlacesInPatch; ++k)
+    mean_db += of_multibeam(1.2 * kCell_m, 2.0 * kAltitude_m + 0.25 * kCell_m * k / kPlacesInPatch).shallowest /
+               kPlacesInPatch;
+  CHECK(mean_db > 3.5);  // twice as wide they leave 3.0
 }
 
 TEST_CASE("at reference, with eight samples a pulse, a forward-looking head parts them too") {

@@ -14,33 +14,16 @@ namespace {
 template <class T>
 using Column = std::array<T, kCellRun>;
 
-/// A flat seabed at a round depth must not lie on the border of two layers of cells.
-const frames::Vec3 kShift(0.3819660113, 0.6180339887, 0.2360679775);
-
-/// A number of steps modulo 2^21.
-inline std::uint64_t steps(double whole) {
-  constexpr double kTurn = 0x1p21;
-  return static_cast<std::uint64_t>(static_cast<std::int32_t>(whole - kTurn * std::floor(whole * (1.0 / kTurn))));
-}
-
-/// A cell's number, of its steps east, north and up.
-inline std::uint64_t cell_at(double east, double north, double up) {
-  return steps(east) | steps(north) << kCellBits | steps(up) << (2 * kCellBits);
-}
-
 }  // namespace
 
-ENSONIFY_WIDE void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end,
+ENSONIFY_WIDE void find_parts(const Insonification& batch, CellLattice lattice, std::size_t first, std::size_t end,
                               CellParts& parts) {
-  const double per_cell = 1.0 / cell_m;
   const auto& at = batch.hits.position_enu_m;
   const double *const x = at.x.data(), *const y = at.y.data(), *const z = at.z.data();
   const float* const range_m = batch.hits.range_m.data();
-  const double shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
   std::uint64_t* const cell = parts.cell.data();
   for (std::size_t i = first; i < end; ++i) {
-    const std::uint64_t number = cell_at(std::floor(x[i] * per_cell + shift_x), std::floor(y[i] * per_cell + shift_y),
-                                         std::floor(z[i] * per_cell + shift_z));
+    const std::uint64_t number = lattice.cell_at(x[i], y[i], z[i], static_cast<double>(range_m[i])).number;
     cell[i] = range_m[i] > 0.0F ? number : kNoCell;
   }
   const float* const sin_grazing = batch.hits.sin_grazing.data();
@@ -51,7 +34,8 @@ ENSONIFY_WIDE void find_parts(const Insonification& batch, double cell_m, std::s
   float* const scattered = parts.scattered_upa2m2.data();
   float* const cross_section = parts.cross_section_m2.data();
   for (std::size_t i = first; i < end; ++i) {
-    const float sigma_solid = backscatter[i] * solid_angle_sr[i] / std::max(sin_grazing[i], 1e-3F);
+    const float sine = sin_grazing[i] < 1e-3F ? 1e-3F : sin_grazing[i];  // std::max() of places would be no vector code
+    const float sigma_solid = backscatter[i] * solid_angle_sr[i] / sine;
     scattered[i] = source_upa2m2[i] * sigma_solid;
     cross_section[i] = tube_m2[i] * sigma_solid;
   }
@@ -98,32 +82,27 @@ struct Bits {
 
 }  // namespace
 
-ENSONIFY_WIDE void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
+ENSONIFY_WIDE void find_geometry(const Insonification& batch, CellLattice lattice, const CellStreams& streams,
                                  std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first) {
   const std::size_t count = rays.size();
   const Gathered hit(batch, rays);
-  const double per_cell = 1.0 / cell_m, shift_x = kShift.x(), shift_y = kShift.y(), shift_z = kShift.z();
-  alignas(64) Column<double> east, north, up;  // steps of the cell, then how far the scatterer is from the hit
+  const auto cell_of = [&](std::size_t i) {
+    return lattice.cell_at(hit.x[i], hit.y[i], hit.z[i], static_cast<double>(hit.range_m[i]));
+  };
   alignas(64) Column<std::uint64_t> cell;
-  for (std::size_t i = 0; i < count; ++i) {
-    east[i] = std::floor(hit.x[i] * per_cell + shift_x);
-    north[i] = std::floor(hit.y[i] * per_cell + shift_y);
-    up[i] = std::floor(hit.z[i] * per_cell + shift_z);
-  }
-  for (std::size_t i = 0; i < count; ++i) cell[i] = cell_at(east[i], north[i], up[i]);
+  for (std::size_t i = 0; i < count; ++i) cell[i] = cell_of(i).number;
   const std::span some = std::span(cell).first(count);
   const Bits bits(streams.places, some);
   std::optional<Bits> others;
   if (streams.speckle) others.emplace(*streams.speckle, some);
   const Bits& drawn = others ? *others : bits;
-  // Somewhere in the cell, then down to the facet.
-  const auto somewhere = [=](double steps, double shift, std::uint32_t inside) {
-    return cell_m * (steps + 0x1p-16 * static_cast<std::int32_t>(inside) - shift);
-  };
+  // Somewhere in the cell, from the hit, then down to the facet.
+  alignas(64) Column<double> east, north, up;
+  const auto share = [](std::uint32_t whole) { return 0x1p-16 * static_cast<std::int32_t>(whole); };
   for (std::size_t i = 0; i < count; ++i) {
-    east[i] = somewhere(east[i], shift_x, bits.word[2][i] & 0xffff) - hit.x[i];
-    north[i] = somewhere(north[i], shift_y, bits.word[2][i] >> 16) - hit.y[i];
-    up[i] = somewhere(up[i], shift_z, bits.word[3][i] & 0xffff) - hit.z[i];
+    const frames::Vec3 at = lattice.place(cell_of(i), share(bits.word[2][i] & 0xffff), share(bits.word[2][i] >> 16),
+                                          share(bits.word[3][i] & 0xffff));
+    east[i] = at.x() - hit.x[i], north[i] = at.y() - hit.y[i], up[i] = at.z() - hit.z[i];
   }
   double *const at_x = found.position_enu_m.x.data() + first, *const at_y = found.position_enu_m.y.data() + first,
                 *const at_z = found.position_enu_m.z.data() + first;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kernels/acoustics/echo/cell_lattice.h"
 #include "kernels/acoustics/echo/scatterer.h"
 #include "kernels/acoustics/trace/ray.h"
 #include "kernels/acoustics/trace/scene.h"
@@ -29,10 +30,6 @@ struct Insonification {
 
 constexpr std::size_t kCellRun = 256;  // rays or cells whose numbers stay in the first cache
 
-/// Cubic cells of the world, numbered by 21 bits each of their steps east, north and up. No cell has number kNoCell.
-constexpr int kCellBits = 21;
-constexpr std::uint64_t kNoCell = ~std::uint64_t{0};
-
 /// What rays bring to their cells, by ray. Memory of the caller's.
 struct CellParts {
   std::vector<std::uint64_t> cell;  // kNoCell where the ray hit nothing
@@ -41,7 +38,7 @@ struct CellParts {
 };
 
 /// Parts of rays first..end - 1 of a batch, into rows of the same numbers.
-void find_parts(const Insonification& batch, double cell_m, std::size_t first, std::size_t end, CellParts& parts);
+void find_parts(const Insonification& batch, CellLattice lattice, std::size_t first, std::size_t end, CellParts& parts);
 
 /// Random numbers of cells, by their number: where the scatterer is in its cell, and its response.
 struct CellStreams {
@@ -61,7 +58,7 @@ struct CellStreams {
 /// Where the scatterers of cells are and what is known of them before energies are summed, into rows first.. of
 /// `found`: one for each of these rays, kCellRun at most, that hit something. The position depends on (places, cell)
 /// and on the facet, the response on (responses, cell).
-void find_geometry(const Insonification& batch, double cell_m, const CellStreams& streams,
+void find_geometry(const Insonification& batch, CellLattice lattice, const CellStreams& streams,
                    std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first);
 
 }  // namespace ensonify::echo

@@ -66,7 +66,7 @@ TEST_CASE("cells in columns are those of each hit, also where their numbers repe
   const Hits some(1000);
   for (const double cell_m : {0.0004, 0.03, 0.5}) {  // 2 km are 5 million cells of 0.4 mm, and 21 bits 2.1 million
     CellParts found{std::vector<std::uint64_t>(600), std::vector<float>(600), std::vector<float>(600)};
-    find_parts(some.all(), cell_m, 300, 500, found);
+    find_parts(some.all(), CellLattice(cell_m, some.pose), 300, 500, found);
     CHECK(found.cell[299] == 0);
     CHECK(found.cell[500] == 0);
     for (std::size_t k = 300; k < 500; ++k) {
@@ -95,7 +95,7 @@ TEST_CASE("a scatterer's position and response are those of its cell's bits, one
   constexpr std::size_t kBefore = 7;  // rows that others have
   Scatterers all;
   all.resize(kBefore + rays.size());
-  find_geometry(some.all(), cell_m, CellStreams(stream), rays, all, kBefore);
+  find_geometry(some.all(), CellLattice(cell_m, some.pose), CellStreams(stream), rays, all, kBefore);
   for (std::size_t i = 0; i < kBefore; ++i) REQUIRE(all.slowness_spm[i] == 0.0F);
   const Vec3 shift(0.3819660113, 0.6180339887, 0.2360679775);
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "kernels/acoustics/echo/cell_columns.h"
+#include "kernels/acoustics/echo/cell_lattice.h"
 
 namespace ensonify::echo {
 

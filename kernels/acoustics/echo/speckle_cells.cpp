@@ -29,15 +29,16 @@ void SpeckleCells::Accumulator::clear() {
   found_.make_room(size + size / 8);
 }
 
-SpeckleCells::SpeckleCells(double cell_m, const CellStreams& streams) : cell_m_(cell_m), streams_(streams) {
-  if (!(cell_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
+SpeckleCells::SpeckleCells(const CellSize& size, const CellStreams& streams) : size_(size), streams_(streams) {
+  if (!(size.cube_m > 0.0)) throw std::invalid_argument("the cells of scatterers must have a size above 0 m");
 }
 
 void SpeckleCells::find_parts(const Insonification& batch, std::size_t rays, CellParts& parts) const {
   trace::make_elements(parts.cell, rays);
   trace::make_elements(parts.scattered_upa2m2, rays);
   trace::make_elements(parts.cross_section_m2, rays);
-  for_runs(rays, [&](std::size_t first, std::size_t end) { echo::find_parts(batch, cell_m_, first, end, parts); });
+  const CellLattice lattice(size_, batch.pose);
+  for_runs(rays, [&](std::size_t first, std::size_t end) { echo::find_parts(batch, lattice, first, end, parts); });
 }
 
 void SpeckleCells::add(const Insonification& batch, Accumulator& sum) const {
@@ -101,8 +102,9 @@ void SpeckleCells::merge(const CellParts& parts, std::span<const std::uint32_t> 
 void SpeckleCells::place_new(const Insonification& batch, Accumulator& sum) const {
   const std::size_t before = sum.found_.size();
   sum.found_.resize(sum.sums_.size());
+  const CellLattice lattice(size_, batch.pose);
   for_runs(sum.makers_.size(), [&](std::size_t first, std::size_t end) {
-    find_geometry(batch, cell_m_, streams_, std::span(sum.makers_).subspan(first, end - first), sum.found_,
+    find_geometry(batch, lattice, streams_, std::span(sum.makers_).subspan(first, end - first), sum.found_,
                   before + first);
   });
   for (const auto& [scatterer, first] : sum.others_) sum.found_.set(scatterer, sum.found_[first]);

@@ -14,11 +14,12 @@ namespace ensonify::echo {
 
 /// From hits to scatterers.
 ///
-/// The world is cut into cubic cells of `cell_m`. All rays that hit one cell add their energy to one scatterer. Its
+/// The world is cut into cells (cell_lattice.h). All rays that hit one cell add their energy to one scatterer. Its
 /// place (in the cell, on the facet) and its response depend on (a stream, cell) only. So a ping repeated from the same
 /// pose with the same rays repeats bit by bit, and when the head moves, the same scatterers answer with other travel
 /// times: the sum decorrelates by these, as a real seabed's does. That needs some four rays per cell; with fewer, the
 /// scatterers that a ping finds change from ping to ping and it decorrelates sooner. Energy is right in any case.
+/// Long cells are those of a course: on another one, 9 degrees away, others answer from the same ground.
 ///
 /// Where one cell has several contributors each has a scatterer of its own. They share the cell's place, response and
 /// pressure, so that their sum is what one scatterer of all the energy would send.
@@ -59,8 +60,8 @@ class SpeckleCells {
     Scatterers found_;           // yet without energies
   };
 
-  /// Throws std::invalid_argument unless cell_m > 0.
-  SpeckleCells(double cell_m, const CellStreams& streams);
+  /// Throws std::invalid_argument unless the cells' edges are above 0 m.
+  SpeckleCells(const CellSize& size, const CellStreams& streams);
 
   /// Adds what rays insonify. Sums are in the order of rays, whatever the batches: the same bits.
   ///
@@ -79,7 +80,7 @@ class SpeckleCells {
   /// After them come `more`, which other stages have found.
   static const Scatterers& gather(Accumulator& sum, const Scatterers& more = {});
 
-  double cell_m() const { return cell_m_; }
+  double cell_m() const { return size_.cube_m; }
   const random::Stream& responses() const { return streams_.responses(); }
 
  private:
@@ -87,7 +88,7 @@ class SpeckleCells {
   void place_new(const Insonification& batch, Accumulator& sum) const;
   static void share(Accumulator& sum);
 
-  double cell_m_;
+  CellSize size_;
   CellStreams streams_;
 };
 

@@ -59,10 +59,10 @@ struct Strip {
 
   /// What an omnidirectional receiver beside the transmitter receives.
   std::vector<std::complex<float>> echo(const frames::Vec3& position_enu_m, std::uint64_t seed,
-                                        double cell_m = 0.03) const {
+                                        const CellSize& size = 0.03) const {
     const frames::HeadPose pose{position_enu_m, frames::enu_from_ned()};
     const auto surface_hits = hits(pose);
-    SpeckleCells cells(cell_m, {seed, "seabed"});
+    SpeckleCells cells(size, {seed, "seabed"});
     Receivers receivers;
     receivers.set({0, 1, std::span(&pose, 1)});
     Arrivals arrivals;
@@ -82,11 +82,11 @@ inline const Strip& strip() {
 }
 
 /// Magnitude of the correlation of echoes at two places, over all samples and some seabeds.
-inline double coherence(const frames::Vec3& a, const frames::Vec3& b, int seabeds) {
+inline double coherence(const frames::Vec3& a, const frames::Vec3& b, int seabeds, const CellSize& size = 0.03) {
   std::complex<double> cross;
   double first = 0, second = 0;
   for (int seed = 0; seed < seabeds; ++seed) {
-    const auto p = strip().echo(a, seed), q = strip().echo(b, seed);
+    const auto p = strip().echo(a, seed, size), q = strip().echo(b, seed, size);
     for (std::size_t k = 0; k < p.size(); ++k) {
       cross += std::complex<double>(p[k]) * std::conj(std::complex<double>(q[k]));
       first += std::norm(p[k]);
