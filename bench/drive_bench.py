@@ -31,7 +31,7 @@ processes:
   nav:   {{ run: navigation }}
   pilot: {{ run: autopilot }}
   pager: {{ run: terrain_pager }}
-  bow:   {{ run: multibeam, config: {{ ping_rate_hz: {pings_hz}, amplitude_every: 1000 }} }}
+  bow:   {{ run: multibeam, config: {{ ping_rate_hz: {pings_hz}, amplitude_every: 1000, quality: 0.25 }} }}
 """
 
 

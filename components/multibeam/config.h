@@ -228,7 +228,6 @@ struct MultibeamConfig : HeadConfig, MultibeamParameters {
   MultibeamConfig() {  // what it has other defaults for than heads in general
     dead_time_s = 0.5e-3;
     gain_absorption_dbpm = 0.07;
-    quality = 0.25;
   }
   template <class Self, class Visit>
   static void parameters(Self& self, Visit&& visit) {

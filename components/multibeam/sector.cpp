@@ -14,7 +14,7 @@ constexpr double kReach = 8.0;  // sines in which rays are sent fore and aft, in
 constexpr double kBeyondSwath_beamwidths = 1.5;  // of the outermost beam: to its first null and a little more
 constexpr double kBeyondEdge = 0.8 * SectorPattern::kRollOff;  // sine
 constexpr double kWidestFan_rad = 1.5;
-constexpr std::size_t kFewestRays = 80'000;  // of all sectors, at normal quality: 20,000 at the default
+constexpr std::size_t kFewestRays = 80'000;  // of all sectors, at normal quality: 20,000 of a preview
 constexpr double kVolumeStep_beamwidths = 0.25;
 
 double range_resolution_m(const MultibeamConfig& c, double pulse_length_s) {

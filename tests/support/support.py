@@ -39,6 +39,7 @@ ensonify: launch/1
 scenario: {source}/scenarios/bay/scenario.yaml
 duration_s: {seconds}
 clock: {{ rate: free }}
+set: {{ bow.quality: 0.25 }}
 processes:
   boat:  {{ run: vehicle }}
   nav:   {{ run: navigation }}

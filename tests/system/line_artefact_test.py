@@ -18,7 +18,7 @@ processes:
   nav: {{ run: navigation }}
   pilot: {{ run: autopilot }}
   pager: {{ run: terrain_pager }}
-  bow: {{ run: multibeam, config: {{ beams: 96, ping_rate_hz: 1, amplitude_every: 1000 }} }}
+  bow: {{ run: multibeam, config: {{ beams: 96, ping_rate_hz: 1, amplitude_every: 1000, quality: 0.25 }} }}
   recorder: {{ run: recorder, config: {{ file: survey.mcap, topics: [bow/soundings, boat/pose, pilot/mission, pager/tile] }} }}
 expect:
   - {{ name: both lines are surveyed, eventually: {{ topic: pilot/mission, where: {{ field: state, equals: done }}, within_s: 200 }} }}

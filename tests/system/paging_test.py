@@ -43,7 +43,7 @@ processes:
   nav:   {{ run: navigation }}
   pilot: {{ run: autopilot }}
   pager: {{ run: terrain_pager, config: {{ {pager} }} }}
-  bow:   {{ run: multibeam, config: {{ ping_rate_hz: 1, amplitude_every: 10 }} }}
+  bow:   {{ run: multibeam, config: {{ ping_rate_hz: 1, amplitude_every: 10, quality: 0.25 }} }}
   heard: {{ run: recorder, config: {{ file: heard.mcap, topics: [bow/soundings, bow/ping] }} }}
   paged: {{ run: recorder, config: {{ file: paged.mcap, topics: [pager/release, pager/health] }} }}
 """

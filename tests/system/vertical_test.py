@@ -42,7 +42,7 @@ processes:
         sigma_velocity_mps: 0, sigma_sound_speed_mps: 0, gnss: { grade: true_fixes.yaml, rate_hz: 20, position_m: [-1, 0.4, -4] } }
   pilot: { run: autopilot }
   pager: { run: terrain_pager }
-  bow:   { run: multibeam, config: { ping_rate_hz: 4, amplitude_every: 1000 } }
+  bow:   { run: multibeam, config: { ping_rate_hz: 4, amplitude_every: 1000, quality: 0.25 } }
   recorder: { run: recorder, config: { file: run.mcap, topics: [pager/chart, nav/estimate, nav/attitude, nav/position, bow/soundings] } }
 """
 TRUE_FIXES = "fix: { horizontal_m: 0, vertical_m: 0, wander_horizontal_m: 0, wander_vertical_m: 0 }\nfirst_fix_s: 0\nconverge_s: 0\nhdop_wander: 0\n"

@@ -6,9 +6,10 @@
 
 namespace ensonify {
 
-/// For tests and benchmarks: a head in isovelocity water of 1500 m/s over sand by Lambert's law.
+/// For tests and benchmarks: a head in isovelocity water of 1500 m/s over sand by Lambert's law, with a preview's rays.
 inline MultibeamConfig head_in_plain_water() {
   MultibeamConfig config;
+  config.quality = 0.25;
   world_of(config).water.profile.sound_speed_mps = 1500.0;
   world_of(config).water.absorption_dbpm = 0.07;
   world_of(config).water.noise_level_db = 35.0;
