@@ -264,8 +264,12 @@ void Supervisor::on_hosted_ended(const std::optional<ClockReport>& reported) {
     const bool to_blame = reported && reported->culprit == member.name;
     const bool took_leave = well && reported && reported->exit_codes.contains(member.name);
     if (to_blame) member.fault = Fault{reported->exit_code, member.name, reported->message};
-    if (took_leave) member.fault = fault_of(member.name, true, {reported->exit_codes.at(member.name), 0});
-    if (took_leave) verdict_.assertion_failed(member.name, member.fault->message += last_words(member));
+    if (took_leave) {
+      member.fault = fault_of(member.name, true, {reported->exit_codes.at(member.name), 0});
+      member.fault->message += last_words(member);
+      if (member.fault->code == kExitAssertionFailed) verdict_.assertion_failed(member.name, member.fault->message);
+      else noticed_.push_back(*member.fault);
+    }
     member.state = member.fault ? "FAILED" : well ? "DONE" : "STOPPED";
   }
 }

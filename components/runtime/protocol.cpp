@@ -358,6 +358,6 @@ std::string encode_refused(const std::vector<std::string>& problems) {
   return json{{"kind", "refused"}, {"problems", problems}}.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 std::string encode_bye(int code) { return json{{"kind", "bye"}, {"code", code}}.dump(); }
-int read_code(std::string_view text) { return parse(text).value("code", 0); }
+int read_code(std::string_view text) { return field<int>(parse(text), "code", 0); }
 
 }  // namespace ensonify::protocol
