@@ -46,7 +46,7 @@ std::optional<Footprint> footprint_of(const std::array<Vec3, 6>& directions, dou
   return f;
 }
 
-constexpr std::size_t kSome = 256;  // places side by side
+constexpr std::size_t kSome = LatticePlaces::kMost;
 using Column = std::array<double, kSome>;
 
 /// From a lattice's axes to the head's: a place's direction times its distance.
@@ -63,26 +63,14 @@ struct Edges {
   int along, zero;  // axes
 };
 
-/// Places, or where nothing but their number and solid angle is asked for whole blocks of them, on a lattice's axes.
-struct Places {
-  std::size_t count = 0;
-  Column first_m, second_m, share;                // of a block
-  std::array<std::uint64_t, kSome> inside, each;  // 1 where all are within the edges; how many
-
-  bool add(double first, double second, double part, bool is_inside, int places) {
-    first_m[count] = first, second_m[count] = second, share[count] = part;
-    inside[count] = is_inside ? 1 : 0, each[count] = static_cast<std::uint64_t>(places);
-    return ++count == kSome;
-  }
-};
-
 struct Directions {
   std::array<std::array<float, kSome>, 3> unit;
   Column solid_angle_sr;                    // 0 beyond the edges
   std::array<std::uint64_t, kSome> within;  // 1, or beyond the edges 0
 };
 
-ENSONIFY_WIDE void directions_to(const ToHead& to_head, const Edges& edges, const Places& places, Directions& found) {
+ENSONIFY_WIDE void directions_to(const ToHead& to_head, const Edges& edges, const LatticePlaces& places,
+                                 Directions& found) {
   const std::size_t count = places.count;
   const Column &first_m = places.first_m, &second_m = places.second_m, &share = places.share;
   Column x, y, z;
@@ -113,6 +101,20 @@ ENSONIFY_WIDE void directions_to(const ToHead& to_head, const Edges& edges, cons
   }
 }
 
+/// Those of `count` that are within the edges.
+void append(const Directions& found, std::size_t count, Rays& rays, std::size_t& next) {
+  if (rays.size() < next + kSome) rays.resize(2 * (next + kSome));
+  float *const x = rays.direction_head.x.data(), *const y = rays.direction_head.y.data(),
+               *const z = rays.direction_head.z.data(), *const solid_angle_sr = rays.solid_angle_sr.data();
+  std::size_t at = next;
+  for (std::size_t i = 0; i < count; ++i) {
+    x[at] = found.unit[0][i], y[at] = found.unit[1][i], z[at] = found.unit[2][i];
+    solid_angle_sr[at] = static_cast<float>(found.solid_angle_sr[i]);
+    at += found.within[i];
+  }
+  next = at;
+}
+
 // Of an object, at normal quality: as many as a facet has quarters of quarters, each of which gets one
 // (facet_rays.cpp). One that the volume's edge cuts has more places, for rays to those beyond it cost nothing.
 constexpr double kRaysToFacet = 16.0, kCutByEdge = 4.0;
@@ -127,8 +129,7 @@ std::size_t cell_of(const std::vector<double>& edges, double at) {
 
 }  // namespace
 
-RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const Place& view,
-                                                         std::vector<Ray>* rays) const {
+void RayDistribution::aim_at_places(const Part& part, const Place& view, Aimed* aimed, ToPlaces* counted) const {
   const bool forward = volume_.axis == TransmitVolume::Axis::kForward;
   const double low = part.low_sine, high = part.high_sine, below_m = part.need.plane_m;
   const Vec2 from(std::cos(part.low_rad), std::sin(part.low_rad)), to(std::cos(part.high_rad), std::sin(part.high_rad));
@@ -140,7 +141,7 @@ RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const
   auto footprint = footprint_of({direction(low, from), direction(low, middle), direction(low, to), direction(high, to),
                                  direction(high, middle), direction(high, from)},
                                 below_m);
-  if (!footprint) return {};
+  if (!footprint) return;
   const double phi_m = footprint->along_phi_m.norm();
   const GroundLattice lattice(footprint->along_phi_m, phi_m / part.along_angle,
                               footprint->area_m2 / phi_m / part.along_sine);
@@ -152,35 +153,17 @@ RayDistribution::ToPlaces RayDistribution::aim_at_places(const Part& part, const
              second = head_from_enu.leftCols<2>() * lattice.second_axis_enu(), down = -below_m * head_from_enu.col(2);
   const double block_m3 = below_m * lattice.block_m2();
   const int along_row = forward ? 0 : 2, zero_row = forward ? 2 : 0;
-  ToPlaces to_places;
-  Places some;
-  const auto take = [&] {
-    Directions found;
+  const auto inside = aimed != nullptr ? GroundLattice::Inside::kPlaces : GroundLattice::Inside::kBlocks;
+  Directions found;
+  lattice.within(stream_, footprint->outline_m, footprint->bulge_m, inside, [&](const LatticePlaces& some) {
     directions_to({first, second, down, head_m, block_m3}, {from, to, low, high, along_row, zero_row}, some, found);
-    if (rays) rays->resize(to_places.rays + kSome);
+    if (aimed != nullptr) append(found, some.count, aimed->rays, aimed->count);
+    if (counted == nullptr) return;
     for (std::size_t i = 0; i < some.count; ++i) {
-      if (rays)
-        (*rays)[to_places.rays] = {{found.unit[0][i], found.unit[1][i], found.unit[2][i]},
-                                   static_cast<float>(found.solid_angle_sr[i])};
-      to_places.solid_angle_sr += found.solid_angle_sr[i];
-      to_places.rays += found.within[i] * some.each[i];
+      counted->solid_angle_sr += found.solid_angle_sr[i];
+      counted->rays += found.within[i] * some.places[i];
     }
-    if (rays) rays->resize(to_places.rays);
-    some.count = 0;
-  };
-  const auto visit = [&](double first_m, double second_m, double share, bool inside) {
-    if (some.add(first_m, second_m, share, inside, 1)) take();
-  };
-  if (rays) {
-    lattice.within(stream_, footprint->outline_m, footprint->bulge_m, visit);
-  } else {
-    lattice.within(stream_, footprint->outline_m, footprint->bulge_m, visit,
-                   [&](double first_m, double second_m, int places) {
-                     if (some.add(first_m, second_m, 1.0, true, places)) take();
-                   });
-  }
-  take();
-  return to_places;
+  });
 }
 
 std::array<double, 2> RayDistribution::coordinates_of(const Probes& probes, const Vec3& direction_head) const {

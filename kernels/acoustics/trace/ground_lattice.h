@@ -10,6 +10,16 @@
 
 namespace ensonify::trace {
 
+/// Places on a lattice's axes, side by side; or whole blocks of them, by their middles.
+struct LatticePlaces {
+  static constexpr std::size_t kMost = 256;
+  std::size_t count = 0;
+  std::array<double, kMost> first_m, second_m;
+  std::array<double, kMost> share;          // of its block's area that is a place's; a block's is all of it
+  std::array<std::uint64_t, kMost> inside;  // 1: in the outline even when that shrinks by the margin; else 0
+  std::array<std::uint64_t, kMost> places;  // 1, or as many as the block has
+};
+
 /// Places of the world to aim rays at, so that a ping's rays hit the seabed where those of the ping before did.
 ///
 /// A jittered lattice on a horizontal plane, of about one place per first_m x second_m. So that pings whose rays are
@@ -27,18 +37,14 @@ class GroundLattice {
   double block_m2() const { return 4.0 * first_m_ * second_m_; }
   frames::Vec2 second_axis_enu() const { return {-first_axis_.y(), first_axis_.x()}; }
 
-  /// visit(first_m, second_m, share, inside), on the lattice's axes, with the share of its block that is a place's, for
-  /// every place within a convex outline (on these axes too) that is grown by margin_m, and for some more around it;
-  /// always in the same order. Those `inside` are in the outline even when it shrinks by the margin. A place is a
-  /// function of (stream, lattice, block).
+  /// Whether blocks that are inside come one by one, or their places.
+  enum class Inside { kPlaces, kBlocks };
+  /// visit(LatticePlaces) for some after others of the places within a convex outline (on these axes too) that is grown
+  /// by margin_m, and of some more around it; always in the same order. A place is a function of (stream, lattice,
+  /// block).
   template <class Visit>
-  void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
+  void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m, Inside inside,
               const Visit& visit) const;
-  /// The same of places that are not inside; of the others block(first_m, second_m, places) says where the middle of
-  /// their block is, and how many it has.
-  template <class Visit, class Block>
-  void within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
-              const Visit& visit, const Block& block) const;
 
  private:
   struct Reach {
@@ -52,13 +58,13 @@ class GroundLattice {
   };
   template <class Visit>
   void each_row(std::span<const frames::Vec2> outline_m, double margin_m, const Visit& visit) const;
-  random::Row bits(const random::Stream& stream, const BlockRow& blocks) const {
-    return {stream, (static_cast<std::uint64_t>(blocks.row) << 20) ^ name_};
-  }
+  static constexpr std::size_t kMostPlaces = 4, kBlocks = 32;  // of a block; at once
+  static_assert(kMostPlaces * kBlocks <= LatticePlaces::kMost);
   int places(double block_first, double block_second) const;
-  template <class Visit>
-  void visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second, bool inside,
-                   const Visit& visit) const;
+  /// Appends the places of a row's blocks `from` on, so many, at most kBlocks; or these blocks themselves.
+  void add_places(const random::Row& bits, const BlockRow& row, std::int64_t from, std::size_t blocks,
+                  LatticePlaces& to) const;
+  void add_blocks(const BlockRow& row, std::int64_t from, std::size_t blocks, LatticePlaces& to) const;
 
   frames::Vec2 first_axis_;
   double first_m_, second_m_;  // of the lattice
@@ -75,21 +81,6 @@ inline frames::Vec2 GroundLattice::on_axes(const frames::Vec2& place_enu) const 
 inline int GroundLattice::places(double block_first, double block_second) const {
   const double turn = 0.7548776662466927 * block_first + 0.5698402909980532 * block_second;
   return static_cast<int>(places_per_block_ + (turn - std::floor(turn)));
-}
-
-template <class Visit>
-void GroundLattice::visit_block(const std::array<std::uint32_t, 4>& bits, double block_first, double block_second,
-                                bool inside, const Visit& visit) const {
-  const int places = this->places(block_first, block_second);
-  // Of each word one cell's place, in the middle half of it, from the low bits; the order of cells from the top ones.
-  const std::uint32_t first = bits[2] >> 30, third = bits[2] >> 29 & 1U ? 1U : 2U;
-  const std::array<std::uint32_t, 4> order{first, first ^ 3U, first ^ third, first ^ third ^ 3U};  // diagonals first
-  const double share = 1.0 / places;
-  for (int k = 0; k < places; ++k) {
-    const std::uint32_t cell = order[static_cast<std::size_t>(k)], word = bits[cell];
-    visit(first_m_ * (2.0 * block_first + (cell & 1U) + 0.25 + 0x1p-14 * (word & 0x1fff)),
-          second_m_ * (2.0 * block_second + (cell >> 1) + 0.25 + 0x1p-14 * (word >> 13 & 0x1fff)), share, inside);
-  }
 }
 
 template <class Visit>
@@ -118,33 +109,31 @@ void GroundLattice::each_row(std::span<const frames::Vec2> outline_m, double mar
 
 template <class Visit>
 void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
-                           const Visit& visit) const {
+                           Inside inside, const Visit& visit) const {
+  LatticePlaces some;
   each_row(outline_m, margin_m, [&](const BlockRow& blocks) {
-    const random::Row bits = this->bits(stream, blocks);
-    for (std::int64_t i = blocks.first; i < blocks.end; ++i) {
-      visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), static_cast<double>(blocks.row),
-                  blocks.inner <= i && i < blocks.inner_end, visit);
-    }
-  });
-}
-
-template <class Visit, class Block>
-void GroundLattice::within(const random::Stream& stream, std::span<const frames::Vec2> outline_m, double margin_m,
-                           const Visit& visit, const Block& block) const {
-  each_row(outline_m, margin_m, [&](const BlockRow& blocks) {
-    const random::Row bits = this->bits(stream, blocks);
-    const auto second = static_cast<double>(blocks.row);
-    const auto visit_blocks = [&](std::int64_t from, std::int64_t to) {
-      for (std::int64_t i = from; i < to; ++i)
-        visit_block(bits.bits(static_cast<std::uint64_t>(i)), static_cast<double>(i), second, false, visit);
+    const random::Row bits(stream, (static_cast<std::uint64_t>(blocks.row) << 20) ^ name_);
+    const auto add = [&](std::int64_t from, std::int64_t to, bool whole) {
+      while (from < to) {
+        const std::size_t count = std::min(kBlocks, static_cast<std::size_t>(to - from));
+        if (some.count + kMostPlaces * count > LatticePlaces::kMost) visit(some), some.count = 0;
+        if (whole) {
+          add_blocks(blocks, from, count, some);
+        } else {
+          add_places(bits, blocks, from, count, some);
+        }
+        from += static_cast<std::int64_t>(count);
+      }
     };
-    visit_blocks(blocks.first, blocks.inner);
-    for (std::int64_t i = blocks.inner; i < blocks.inner_end; ++i) {
-      const auto first = static_cast<double>(i);
-      block(first_m_ * (2.0 * first + 1.0), second_m_ * (2.0 * second + 1.0), places(first, second));
+    if (inside == Inside::kPlaces) {
+      add(blocks.first, blocks.end, false);
+    } else {
+      add(blocks.first, blocks.inner, false);
+      add(blocks.inner, blocks.inner_end, true);
+      add(blocks.inner_end, blocks.end, false);
     }
-    visit_blocks(blocks.inner_end, blocks.end);
   });
+  if (some.count > 0) visit(some);
 }
 
 }  // namespace ensonify::trace

@@ -14,6 +14,20 @@ using ensonify::random::Stream;
 
 using Places = std::set<std::pair<double, double>>;
 
+/// visit(first_m, second_m, inside) for each place.
+template <class Visit>
+static void each_place(const GroundLattice& lattice, const Stream& stream, const std::vector<Vec2>& outline,
+                       double margin_m, const Visit& visit) {
+  lattice.within(stream, outline, margin_m, GroundLattice::Inside::kPlaces, [&](const LatticePlaces& some) {
+    REQUIRE(0 < some.count);
+    REQUIRE(some.count <= LatticePlaces::kMost);
+    for (std::size_t i = 0; i < some.count; ++i) {
+      REQUIRE(some.places[i] == 1);
+      visit(some.first_m[i], some.second_m[i], some.inside[i] != 0);
+    }
+  });
+}
+
 /// Places on the lattice's axes that are in a rectangle about (12, -7).
 static Places places(const GroundLattice& lattice, double half_first_m, double half_second_m, std::uint64_t seed = 1) {
   const std::vector<Vec2> outline{{12 - half_first_m, -7 - half_second_m},
@@ -21,7 +35,7 @@ static Places places(const GroundLattice& lattice, double half_first_m, double h
                                   {12 + half_first_m, -7 + half_second_m},
                                   {12 - half_first_m, -7 + half_second_m}};
   Places found;
-  lattice.within(Stream{seed, "rays"}, outline, 0.0, [&](double x, double y, double, bool) {
+  each_place(lattice, {seed, "rays"}, outline, 0.0, [&](double x, double y, bool) {
     if (std::abs(x - 12) < half_first_m && std::abs(y + 7) < half_second_m) REQUIRE(found.emplace(x, y).second);
   });
   return found;
@@ -89,12 +103,12 @@ TEST_CASE("outlines in any position, slivers and points, are covered") {
   };
   int expected = 0, found = 0;
   for (const auto& [x, y] : places(lattice, 3, 3)) expected += inside(x, y);
-  lattice.within({1, "rays"}, triangle, 0.0, [&](double x, double y, double, bool) { found += inside(x, y); });
+  each_place(lattice, {1, "rays"}, triangle, 0.0, [&](double x, double y, bool) { found += inside(x, y); });
   CHECK(expected > 10);
   CHECK(found == expected);
   int around = 0;
-  lattice.within({1, "rays"}, std::vector<Vec2>{{12, -7}, {12, -7}, {12, -7}}, 0.3,
-                 [&](double x, double y, double, bool) { around += std::hypot(x - 12, y + 7) < 0.3; });
+  each_place(lattice, {1, "rays"}, {{12, -7}, {12, -7}, {12, -7}}, 0.3,
+             [&](double x, double y, bool) { around += std::hypot(x - 12, y + 7) < 0.3; });
   int near = 0;
   for (const auto& [x, y] : places(lattice, 1, 1)) near += std::hypot(x - 12, y + 7) < 0.3;
   CHECK(around == near);
@@ -118,7 +132,7 @@ TEST_CASE("blocks inside have the places that are visited one by one, all within
       std::vector<Vec2> on_axes;
       for (const Vec2& corner : outline) on_axes.push_back(lattice.on_axes(corner));
       int all = 0, in_blocks = 0, beside = 0, counted = 0;
-      lattice.within({1, "rays"}, on_axes, kMargin_m, [&](double x, double y, double, bool is_inside) {
+      each_place(lattice, {1, "rays"}, on_axes, kMargin_m, [&](double x, double y, bool is_inside) {
         ++all;
         if (!is_inside) return;
         ++in_blocks;
@@ -127,13 +141,12 @@ TEST_CASE("blocks inside have the places that are visited one by one, all within
           REQUIRE(
               inside(at.x() + 0.7 * off.x(), at.y() + 0.7 * off.y()));  // sides stand at up to 45 degrees to the axes
       });
-      lattice.within(
-          {1, "rays"}, on_axes, kMargin_m,
-          [&](double, double, double, bool is_inside) {
-            REQUIRE_FALSE(is_inside);
-            ++beside;
-          },
-          [&](double, double, int places) { counted += places; });
+      lattice.within({1, "rays"}, on_axes, kMargin_m, GroundLattice::Inside::kBlocks, [&](const LatticePlaces& some) {
+        for (std::size_t i = 0; i < some.count; ++i) {
+          (some.inside[i] != 0 ? counted : beside) += static_cast<int>(some.places[i]);
+          if (some.inside[i] == 0) REQUIRE(some.places[i] == 1);
+        }
+      });
       CHECK(in_blocks > all / 2);
       CHECK(counted == in_blocks);
       CHECK(beside + counted == all);

@@ -74,10 +74,9 @@ std::vector<Eigen::Vector3f> places_of(const TriangleMesh& mesh, const Vec2& ori
 }  // namespace
 
 TrianglePart::TrianglePart(const Device& device, std::vector<Triangle> triangles, Places places_m, const Common& common)
-    : Part(device.get(), bounds_of(triangles, *places_m), common.number, common.facet_m),
+    : Part(device.get(), bounds_of(triangles, *places_m), common.number, common.facet_m, common.contributor),
       triangles_(std::move(triangles)),
-      places_m_(std::move(places_m)),
-      contributor_(common.contributor) {}
+      places_m_(std::move(places_m)) {}
 
 Part::Content TrianglePart::content() const {
   Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));

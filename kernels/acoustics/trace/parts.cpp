@@ -13,7 +13,6 @@
 #include <string>
 #include <utility>
 
-#include "kernels/acoustics/trace/contributors.h"
 #include "kernels/base/isa/isa.h"
 #include "kernels/mesh/lod/cover.h"
 
@@ -51,6 +50,12 @@ struct Query : RTCIntersectContext {
   PartTree::Of of = PartTree::Of::kAll;
 };
 
+/// kNoise where sediments differ.
+std::uint32_t contributor_of_all(const Shown& shown) {
+  const terrain::Tile& tile = shown.ground->tile;
+  return tile.sediment.empty() ? sediment_contributor(tile.everywhere) : kNoise;
+}
+
 float facet_of(const Shown& shown) {
   return static_cast<float>(std::ldexp(shown.ground->tile.spacing_m, shown.leaf.level));
 }
@@ -74,8 +79,8 @@ struct Part::Built {
   std::size_t triangles;
 };
 
-Part::Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m)
-    : device_(device), bounds_(bounds), number_(number), facet_m_(facet_m) {}
+Part::Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m, std::uint32_t contributor)
+    : device_(device), bounds_(bounds), number_(number), facet_m_(facet_m), contributor_(contributor) {}
 
 Part::~Part() { delete built_.load(); }
 
@@ -110,11 +115,11 @@ void* Part::new_buffer(const Geometry& geometry, RTCBufferType type, RTCFormat f
 }
 
 BlockPart::BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m)
-    : Part(device.get(), bounds_of(shown, origin_enu_m), shown.number, facet_of(shown)),
+    : Part(device.get(), bounds_of(shown, origin_enu_m), shown.number, facet_of(shown), contributor_of_all(shown)),
       shown_(shown),
       origin_enu_m_(origin_enu_m) {}
 
-std::uint32_t BlockPart::contributor_at(const terrain::Vec2& place_enu_m) const {
+std::uint32_t BlockPart::contributor_of(const terrain::Vec2& place_enu_m) const {
   return sediment_contributor(terrain::sediment_at(shown_.ground->tile, place_enu_m));
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "kernels/acoustics/trace/contributors.h"
 #include "kernels/mesh/lod/cover.h"
 #include "kernels/mesh/lod/hierarchy.h"
 #include "kernels/mesh/tile.h"
@@ -53,16 +54,20 @@ class Part {
   /// As Hit has them.
   std::uint32_t number() const { return number_; }
   float facet_m() const { return facet_m_; }
-  virtual std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const = 0;
-  virtual bool is_body() const { return false; }
+  std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const {
+    return contributor_ != kNoise ? contributor_ : contributor_of(place_enu_m);
+  }
+  bool is_body() const { return trace::is_body(contributor_); }
 
  protected:
   struct Content {
     Geometry geometry;  // with its buffers, not yet committed
     std::size_t triangles;
   };
-  Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m);
+  /// `contributor` is that of all places, or kNoise where they differ.
+  Part(RTCDevice device, const RTCBounds& bounds, std::uint32_t number, float facet_m, std::uint32_t contributor);
   virtual Content content() const = 0;
+  virtual std::uint32_t contributor_of(const terrain::Vec2& /*place_enu_m*/) const { return contributor_; }
   RTCDevice device() const { return device_; }
   /// Memory of Embree's for count elements of one of a geometry's buffers. Throws std::bad_alloc.
   void* new_buffer(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t element_bytes,
@@ -76,6 +81,7 @@ class Part {
   RTCBounds bounds_;
   std::uint32_t number_;
   float facet_m_;
+  std::uint32_t contributor_;
   mutable std::atomic<const Built*> built_ = nullptr;
 };
 
@@ -102,10 +108,9 @@ class BlockPart final : public Part {
  public:
   BlockPart(const Device& device, const Shown& shown, const terrain::Vec2& origin_enu_m);
 
-  std::uint32_t contributor_at(const terrain::Vec2& place_enu_m) const override;
-
  private:
   Content content() const override;
+  std::uint32_t contributor_of(const terrain::Vec2& place_enu_m) const override;
 
   Shown shown_;
   terrain::Vec2 origin_enu_m_;

@@ -17,9 +17,9 @@ namespace {
 class Slab final : public Part {
  public:
   Slab(const Device& device, float east_m)
-      : Part(device.get(), {east_m, 0.0F, -5.1F, 0.0F, east_m + 2.0F, 2.0F, -4.9F, 0.0F}, 1, 1.0F), east_m_(east_m) {}
+      : Part(device.get(), {east_m, 0.0F, -5.1F, 0.0F, east_m + 2.0F, 2.0F, -4.9F, 0.0F}, 1, 1.0F, kNoise),
+        east_m_(east_m) {}
 
-  std::uint32_t contributor_at(const ensonify::terrain::Vec2&) const override { return 0; }
   bool memory = true;
 
  private:

@@ -76,6 +76,17 @@ Eigen::Vector3f direction_of(TransmitVolume::Axis axis, float along, float side,
                                                 : Eigen::Vector3f(zero, side, along);
 }
 
+/// `count` rays from `first` on, their solid angles scaled, into rows `to_first` on.
+void copy(const Rays& from, std::size_t first, std::size_t count, float scale, Rays& to, std::size_t to_first) {
+  const auto column = [&](const std::vector<float>& a, std::vector<float>& b) {
+    std::copy_n(a.data() + first, count, b.data() + to_first);
+  };
+  column(from.direction_head.x, to.direction_head.x);
+  column(from.direction_head.y, to.direction_head.y);
+  column(from.direction_head.z, to.direction_head.z);
+  for (std::size_t i = 0; i < count; ++i) to.solid_angle_sr[to_first + i] = scale * from.solid_angle_sr[first + i];
+}
+
 /// What each part makes is its own, however many of them are a task.
 template <class Work>
 void for_parts(std::size_t first, std::size_t end, const Work& work, std::size_t per_task = kCellsPerTask) {
@@ -299,10 +310,11 @@ void RayDistribution::aim_beyond_probes(const Targets& targets, float max_range_
   plan.places_scale_ = static_cast<float>(parts_sr / places_sr);
 }
 
-void RayDistribution::count_part(const Place& head, Part& part, std::vector<Ray>* kept) const {
+void RayDistribution::count_part(const Place& head, Part& part, Aimed* kept) const {
   const bool to_places = part.need.plane_m > 0.0 && part.strata() >= kFewestToPlaces;
-  if (kept != nullptr) kept->clear();
-  const ToPlaces found = to_places ? aim_at_places(part, head, kept) : ToPlaces{};
+  if (kept != nullptr) kept->count = 0;
+  ToPlaces found;
+  if (to_places) aim_at_places(part, head, kept, &found);
   part.to_places_sr = found.solid_angle_sr;
   part.rays = found.rays > 0 ? found.rays : part.strata();
 }
@@ -325,15 +337,12 @@ void RayDistribution::fill(const Plan& plan, std::size_t first, std::size_t coun
         [&](std::size_t k) {
           const Part& part = parts[k];
           const bool kept = plan.keeps_ && part.to_places_sr > 0.0;
-          const std::vector<Ray>& rays = kept ? plan.kept_[k] : batch.parts_[k - low];
+          const Aimed& aimed = kept ? plan.kept_[k] : batch.parts_[k - low];
           if (!kept) fill_part(plan, k, head, batch.parts_[k - low]);
-          const float scale = part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F;
           const std::size_t from = std::max(first, part.first_ray),
                             to = std::min(spread_end, part.first_ray + part.rays);
-          for (std::size_t i = from; i < to; ++i) {
-            const Ray& ray = rays[i - part.first_ray];
-            batch.rays.set(i - first, {ray.direction_head, scale * ray.solid_angle_sr});
-          }
+          copy(aimed.rays, from - part.first_ray, to - from, part.to_places_sr > 0.0 ? plan.places_scale_ : 1.0F,
+               batch.rays, from - first);
         },
         1);  // a batch has few parts where they have many rays
   }
@@ -341,19 +350,17 @@ void RayDistribution::fill(const Plan& plan, std::size_t first, std::size_t coun
     batch.rays.set(i - first, plan.facets_.rays[i - plan.spread_]);
 }
 
-void RayDistribution::fill_part(const Plan& plan, std::size_t index, const Place& head, std::vector<Ray>& rays) const {
+void RayDistribution::fill_part(const Plan& plan, std::size_t index, const Place& head, Aimed& aimed) const {
   const Part& part = plan.parts_[index];
-  rays.clear();
-  const std::size_t strata = part.strata();
-  if (rays.capacity() < 2 * strata) rays.reserve(4 * strata);  // the next pings need about as many: no memory for them
+  aimed.count = 0;
   if (part.to_places_sr > 0.0) {
-    aim_at_places(part, head, &rays);
+    aim_at_places(part, head, &aimed, nullptr);
   } else {
-    fill_strata(part, index, rays);
+    fill_strata(part, index, aimed);
   }
 }
 
-void RayDistribution::fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const {
+void RayDistribution::fill_strata(const Part& part, std::size_t index, Aimed& aimed) const {
   const double half_u = 0.5 * (part.high_sine - part.low_sine), middle_u = part.low_sine + half_u;
   const double half_rad = 0.5 * (part.high_rad - part.low_rad), middle_rad = part.low_rad + half_rad;
   const double du = 2.0 * half_u / part.along_sine, dphi = 2.0 * half_rad / part.along_angle;
@@ -361,8 +368,8 @@ void RayDistribution::fill_strata(const Part& part, std::size_t index, std::vect
   const auto u0 = static_cast<float>(middle_u), u_step = static_cast<float>(du), u_first = static_cast<float>(-half_u);
   const auto e_step = static_cast<float>(dphi), e_first = static_cast<float>(-half_rad);
   const auto solid_angle = static_cast<float>(du * dphi);
-  const std::size_t count = std::size_t{part.along_sine} * part.along_angle;
-  rays.resize(count);
+  const std::size_t count = aimed.count = part.strata();
+  if (aimed.rays.size() < count) aimed.rays.make_elements(count);
 
   constexpr std::size_t kRun = random::Stream::Run::kSize;
   random::Stream::Run bits;
@@ -391,7 +398,7 @@ void RayDistribution::fill_strata(const Part& part, std::size_t index, std::vect
       zero[k] = beside * (cosine * cos_e - sine * sin_e);
     }
     for (std::size_t k = 0; k < lanes; ++k) {
-      rays[first + k] = {direction_of(volume_.axis, along[k], side[k], zero[k]), solid_angle};
+      aimed.rays.set(first + k, {direction_of(volume_.axis, along[k], side[k], zero[k]), solid_angle});
     }
   }
 }

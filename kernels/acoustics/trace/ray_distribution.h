@@ -156,6 +156,10 @@ struct RaySettings {
 /// has one ray.
 class RayDistribution {
   struct Part;
+  struct Aimed {  // rays of a part: the first `count`; room for more is kept
+    Rays rays;
+    std::size_t count = 0;
+  };
 
  public:
   /// Throws std::invalid_argument for empty or overlapping spans, and for settings that are not positive.
@@ -189,7 +193,7 @@ class RayDistribution {
     frames::HeadPose head_;
     std::vector<Part> parts_;
     bool keeps_ = false;  // of few rays those to places, by part, so that they are not made twice
-    std::vector<std::vector<Ray>> kept_;
+    std::vector<Aimed> kept_;
     std::size_t spread_ = 0;     // rays over directions
     float places_scale_ = 1.0F;  // of the solid angles of rays to places, which share that of their parts
     double share_ = 1.0;
@@ -224,8 +228,8 @@ class RayDistribution {
 
    private:
     friend RayDistribution;
-    std::size_t first_ = 0;                // of the plan's rays
-    std::vector<std::vector<Ray>> parts_;  // rays of each part
+    std::size_t first_ = 0;  // of the plan's rays
+    std::vector<Aimed> parts_;
   };
   /// The rays from `first` on, at most `count`, traced: trace(rays, hits) finds what they hit. Only then do those to
   /// facets carry a solid angle, and do hits that do not count become misses. A function of the plan: batches may be
@@ -316,18 +320,18 @@ class RayDistribution {
   void aim_beyond_probes(const Targets& targets, float max_range_m, const refraction::PathTable* refracted,
                          Plan& plan) const;
   /// Counts the rays of a part, and what they carry to places; keeps those unless `kept` is null.
-  void count_part(const Place& head, Part& part, std::vector<Ray>* kept) const;
-  void fill_part(const Plan& plan, std::size_t index, const Place& head, std::vector<Ray>& rays) const;
+  void count_part(const Place& head, Part& part, Aimed* kept) const;
+  void fill_part(const Plan& plan, std::size_t index, const Place& head, Aimed& aimed) const;
   void fill(const Plan& plan, std::size_t first, std::size_t count, Batch& batch) const;
   static void settle(const Plan& plan, Batch& batch);
-  /// Of rays to all places of the part's plane that lie in its directions: their number and solid angle. None where the
-  /// plane is seen too flat. The rays are appended unless `rays` is null.
+  /// Rays to all places of the part's plane that lie in its directions; none where the plane is seen too flat. They are
+  /// appended, and their number and solid angle added, unless there is nothing to do so to.
   struct ToPlaces {
     std::size_t rays = 0;
     double solid_angle_sr = 0.0;
   };
-  ToPlaces aim_at_places(const Part& part, const Place& head, std::vector<Ray>* rays) const;
-  void fill_strata(const Part& part, std::size_t index, std::vector<Ray>& rays) const;
+  void aim_at_places(const Part& part, const Place& head, Aimed* aimed, ToPlaces* counted) const;
+  void fill_strata(const Part& part, std::size_t index, Aimed& aimed) const;
 
   TransmitVolume volume_;
   RaySettings settings_;

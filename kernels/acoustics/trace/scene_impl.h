@@ -31,8 +31,6 @@ class TrianglePart final : public Part {
   TrianglePart(const Device& device, std::vector<progressive::Triangle> triangles, Places places_m,
                const Common& common);
 
-  std::uint32_t contributor_at(const terrain::Vec2&) const override { return contributor_; }
-  bool is_body() const override { return trace::is_body(contributor_); }
   const std::vector<progressive::Triangle>& shown() const { return triangles_; }
 
  private:
@@ -40,7 +38,6 @@ class TrianglePart final : public Part {
 
   std::vector<progressive::Triangle> triangles_;
   Places places_m_;
-  std::uint32_t contributor_;
 };
 
 /// An irregular mesh as a scene has it. Its triangles are in clusters of neighbours, each a part, so that what stays
