@@ -25,6 +25,7 @@ from head_benches import bench_heads
 from harness import ROOT, Bench, row
 from labels_bench import bench_labels
 from logger_bench import bench_logger
+from memory_bench import bench_memory
 from navigation_bench import bench_navigation
 from profile_bench import bench_profile
 from ratio_bench import bench_ratios
@@ -48,7 +49,7 @@ def bench_kernels(b):
 
 BENCHES = {"start": bench_start, "round": bench_round, "stream": bench_stream, "free": bench_free,
            "python": bench_python, "environment": bench_environment, "observers": bench_observers, "heads": bench_heads, "table": bench_table, "whole": bench_whole, "scaling": bench_scaling, "labels": bench_labels,
-           "dataset": bench_dataset, "logger": bench_logger, "feed": bench_feed,
+           "dataset": bench_dataset, "logger": bench_logger, "memory": bench_memory, "feed": bench_feed,
            "navigation": bench_navigation, "drive": bench_drive, "profile": bench_profile, "uncertainty": bench_uncertainty, "console": bench_console,
            "ratios": bench_ratios, "kernels": bench_kernels}
 
