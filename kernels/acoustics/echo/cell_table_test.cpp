@@ -15,12 +15,13 @@ std::uint64_t cell_of(std::uint64_t east, std::uint64_t north, std::uint64_t up)
 /// Looks cells up one after the other; the cells by the numbers that they got.
 std::vector<std::uint64_t> numbered(CellTable& table, const std::vector<std::uint64_t>& cells) {
   std::vector<std::uint64_t> by_number;
-  const auto cell = [&](std::uint32_t number) { return by_number[number]; };
   for (const std::uint64_t one : cells) {
-    table.make_room(1, cell);
-    const auto next = static_cast<std::uint32_t>(by_number.size());
-    const std::uint32_t number = table.number(one, table.slot(one), next, cell);
-    if (number == next) by_number.push_back(one);
+    table.make_room(1);
+    std::uint32_t& number = table.number(one, table.row(one, table.slot(one)));
+    if (number == CellTable::kNone) {
+      number = static_cast<std::uint32_t>(by_number.size());
+      by_number.push_back(one);
+    }
     REQUIRE(by_number.at(number) == one);
   }
   return by_number;
