@@ -49,7 +49,8 @@ struct Gathered {
   alignas(64) Column<float> normal_x, normal_y, normal_z, launch_x, launch_y, launch_z;
   alignas(64) Column<float> range_m, time_s, length_m, tube_m2;
 
-  Gathered(const Insonification& batch, std::span<const std::uint32_t> rays) {
+  /// Not within vector code, which would put vectors together from these loads: slower than the loads alone.
+  [[gnu::noinline]] Gathered(const Insonification& batch, std::span<const std::uint32_t> rays) {
     const trace::Hits& hits = batch.hits;
     const auto& launch = batch.rays.direction_head;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -61,19 +61,19 @@ void SpeckleCells::add(const Insonification& batch, const CellParts& parts, Accu
 void SpeckleCells::merge(const CellParts& parts, std::span<const std::uint32_t> contributors, Accumulator& sum) {
   const std::uint32_t before = sum.size_;
   std::uint32_t next = before;
-  sum.make_rows(before + parts.size() + 1);
   trace::make_elements(sum.makers_, parts.size() + 1);
   sum.others_.clear();
-  float* const scattered = sum.found_.scattered_upa2m2.data();
-  float* const cross_section = sum.found_.cross_section_m2.data();
-  std::uint32_t* const contributor = sum.found_.contributor.data();
-  std::uint32_t* const another = sum.another_.data();
-  std::uint32_t* const maker = sum.makers_.data();
   std::array<std::uint32_t, kCellRun> slot, row;
   for (std::size_t begin = 0; begin < parts.size(); begin += kCellRun) {
     const std::size_t count = std::min(kCellRun, parts.size() - begin);
-    const std::uint64_t* const cell = parts.cell.data() + begin;
     sum.first_of_.make_room(count);
+    sum.make_rows(next + count + 1);
+    const std::uint64_t* const cell = parts.cell.data() + begin;
+    float* const scattered = sum.found_.scattered_upa2m2.data();
+    float* const cross_section = sum.found_.cross_section_m2.data();
+    std::uint32_t* const contributor = sum.found_.contributor.data();
+    std::uint32_t* const another = sum.another_.data();
+    std::uint32_t* const maker = sum.makers_.data();
     for (std::size_t i = 0; i < count; ++i) {
       slot[i] = sum.first_of_.slot(cell[i]);
       sum.first_of_.fetch(slot[i]);
