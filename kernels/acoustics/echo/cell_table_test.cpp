@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <vector>
 
 using namespace ensonify::echo;
@@ -40,6 +42,27 @@ TEST_CASE("each cell has one number, however many there are, dense or far apart"
     CellTable table;
     CHECK(numbered(table, twice) == cells);
   }
+}
+
+TEST_CASE("cells of a patch of 4 x 4 share a row, and no others do") {
+  CellTable table;
+  table.make_room(1000);
+  std::map<std::uint32_t, std::set<std::uint64_t>> patches;  // by row
+  for (std::uint64_t east = 0; east < 10; ++east) {
+    for (std::uint64_t north = 0; north < 10; ++north) {
+      for (std::uint64_t up = 0; up < 2; ++up) {
+        const std::uint64_t cell = cell_of(east, north, up);
+        const std::uint32_t row = table.row(cell, table.slot(cell));
+        REQUIRE(table.row(cell, table.slot(cell)) == row);
+        patches[row].insert(cell_of(east / 4, north / 4, up));
+        std::uint32_t& number = table.number(cell, row);
+        REQUIRE(number == CellTable::kNone);  // no other cell of the patch has this place
+        number = 0;
+      }
+    }
+  }
+  CHECK(patches.size() == 3 * 3 * 2);
+  for (const auto& [row, of_row] : patches) CHECK(of_row.size() == 1);
 }
 
 TEST_CASE("a table that was cleared has no cell, also after as many rounds as it can count") {

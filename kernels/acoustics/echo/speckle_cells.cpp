@@ -126,7 +126,7 @@ void SpeckleCells::place_new(const Insonification& batch, std::size_t before, Ac
   }
 }
 
-/// A cell's contributors share what it scatters as their energies are.
+/// A cell's contributors share what it scatters as their energies are; once.
 void SpeckleCells::share(Accumulator& sum) {
   Scatterers& found = sum.found_;
   for (const std::uint32_t first : sum.shared_) {
