@@ -49,7 +49,8 @@ struct Gathered {
   alignas(64) Column<float> normal_x, normal_y, normal_z, launch_x, launch_y, launch_z;
   alignas(64) Column<float> range_m, time_s, length_m, tube_m2;
 
-  Gathered(const Insonification& batch, std::span<const std::uint32_t> rays) {
+  /// Not within vector code, which would put vectors together from these loads: slower than the loads alone.
+  [[gnu::noinline]] Gathered(const Insonification& batch, std::span<const std::uint32_t> rays) {
     const trace::Hits& hits = batch.hits;
     const auto& launch = batch.rays.direction_head;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -98,10 +99,10 @@ ENSONIFY_WIDE void find_geometry(const Insonification& batch, CellLattice lattic
   const Bits& drawn = others ? *others : bits;
   // Somewhere in the cell, from the hit, then down to the facet.
   alignas(64) Column<double> east, north, up;
-  const auto share = [](std::uint32_t whole) { return 0x1p-16 * static_cast<std::int32_t>(whole); };
+  const auto part = [](std::uint32_t whole) { return 0x1p-16 * static_cast<std::int32_t>(whole); };
   for (std::size_t i = 0; i < count; ++i) {
-    const frames::Vec3 at = lattice.place(cell_of(i), share(bits.word[2][i] & 0xffff), share(bits.word[2][i] >> 16),
-                                          share(bits.word[3][i] & 0xffff));
+    const frames::Vec3 at = lattice.place(cell_of(i), part(bits.word[2][i] & 0xffff), part(bits.word[2][i] >> 16),
+                                          part(bits.word[3][i] & 0xffff));
     east[i] = at.x() - hit.x[i], north[i] = at.y() - hit.y[i], up[i] = at.z() - hit.z[i];
   }
   double *const at_x = found.position_enu_m.x.data() + first, *const at_y = found.position_enu_m.y.data() + first,
@@ -137,12 +138,13 @@ ENSONIFY_WIDE void find_geometry(const Insonification& batch, CellLattice lattic
     im[i] = radius * direction.sine;
   }
   float *const slowness_spm = found.slowness_spm.data() + first, *const stretch = found.stretch.data() + first,
-               *const spreading = found.spreading.data() + first;
+               *const spreading = found.spreading.data() + first, *const share = found.share.data() + first;
   for (std::size_t i = 0; i < count; ++i) {
     const float range_m = hit.range_m[i];
     slowness_spm[i] = hit.time_s[i] / range_m;
     stretch[i] = hit.length_m[i] / range_m;
     spreading[i] = hit.tube_m2[i] / (range_m * range_m);
+    share[i] = 1.0F;
   }
 }
 

@@ -55,9 +55,9 @@ struct CellStreams {
   const random::Stream& responses() const { return speckle ? *speckle : places; }
 };
 
-/// Where the scatterers of cells are and what is known of them before energies are summed, into rows first.. of
+/// Where the scatterers of cells are and all that is known of them but energies and contributors, into rows first.. of
 /// `found`: one for each of these rays, kCellRun at most, that hit something. The position depends on (places, cell)
-/// and on the facet, the response on (responses, cell).
+/// and on the facet, the response on (responses, cell). Each has the whole of its cell's pressure.
 void find_geometry(const Insonification& batch, CellLattice lattice, const CellStreams& streams,
                    std::span<const std::uint32_t> rays, Scatterers& found, std::size_t first);
 

@@ -118,6 +118,7 @@ TEST_CASE("a scatterer's position and response are those of its cell's bits, one
     REQUIRE(found.slowness_spm == hit.travel_time_s / hit.range_m);
     REQUIRE(found.stretch == hit.path_length_m / hit.range_m);
     REQUIRE(double(found.spreading) == Approx(0.9).epsilon(1e-6));
+    REQUIRE(found.share == 1.0F);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -11,88 +12,79 @@
 
 namespace ensonify::echo {
 
-/// From cells to numbers: a table with open addressing. A look-up misses the cache: so ask for the slots of many
-/// cells first, have them fetched, and look then.
+/// From cells to numbers. Those of a patch, 4 x 4 cells of one layer, have a row, which is one line of the cache. A
+/// table with open addressing finds rows. A look-up misses the cache: so ask for the slots of many cells first, have
+/// them fetched, find their rows then, and their numbers last.
 class CellTable {
  public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
   /// Forgets all cells. Nothing is written for that, but every 255th time.
   void clear() {
     taken_ = 0;
-    if (++round_ > kRounds) lines_.assign(lines_.size(), {}), round_ = 1;
+    if (++round_ == 0) slots_.assign(slots_.size(), {}), round_ = 1;
   }
 
-  /// Room for `more` cells. What cell_of says of a number is its cell.
-  template <class CellOf>
-  void make_room(std::size_t more, const CellOf& cell_of) {
-    while (2 * (taken_ + more) > size_) grow(cell_of);
+  /// Room for the patches of `more` cells.
+  void make_room(std::size_t more) {
+    while (kSlotsPerPatch * (taken_ + more) > slots_.size()) grow();
+    if (rows_.size() < taken_ + more) rows_.resize(2 * (taken_ + more));
   }
 
-  /// Where the search for a cell begins, until the next make_room(). Of a layer of a patch of 4 x 4 cells, whichever
-  /// way it stands, all begin in different slots, two lines of the cache.
-  std::size_t slot(std::uint64_t cell) const {
-    constexpr std::uint64_t kPatches =
-        ~(std::uint64_t{3} | (std::uint64_t{3} << kCellBits) | (std::uint64_t{3} << (2 * kCellBits)));
-    const std::uint64_t up = cell >> (2 * kCellBits);
-    const std::uint64_t in_patch = ((cell + up) & 3) | (((cell >> kCellBits) + up) & 3) << 2;
-    return (((spread(cell & kPatches) >> 36) * kPatch) & (size_ - 1)) | in_patch;
-  }
-  void fetch(std::size_t slot) const { __builtin_prefetch(&at(slot), 1); }
+  /// Where the search for the row of a cell begins, until the next make_room().
+  std::uint32_t slot(std::uint64_t cell) const { return slot_of_patch(cell & ~kInPatch); }
+  void fetch(std::uint32_t slot) const { __builtin_prefetch(&slots_[slot], 1); }
 
-  /// The number that stands there, of this cell or of any other.
-  std::uint32_t guess(std::size_t slot) const { return at(slot).number; }
-
-  /// The number of a cell whose search begins there; `next` becomes its number if it has none.
-  template <class CellOf>
-  std::uint32_t number(std::uint64_t cell, std::size_t slot, std::uint32_t next, const CellOf& cell_of) {
-    const std::uint32_t mark = mark_of(cell);
-    for (std::size_t tries = 1;; slot = after(slot, tries++)) {
-      const Slot& here = at(slot);
-      if (here.mark == mark && cell_of(here.number) == cell) return here.number;
-      if ((here.mark & kRounds) != round_) break;
+  /// The row of a cell's patch, whose search begins there.
+  std::uint32_t row(std::uint64_t cell, std::uint32_t slot) {
+    const std::uint64_t patch = cell & ~kInPatch;
+    for (;; slot = after(slot)) {
+      const Slot& here = slots_[slot];
+      if (here.round != round_) break;
+      if (here.patch == patch) return here.row;
     }
-    at(slot) = {mark, next};
-    ++taken_;
-    return next;
+    slots_[slot] = {patch, taken_, round_};
+    rows_[taken_].fill(kNone);
+    return taken_++;
+  }
+
+  /// The number of a cell of that row: kNone until one is put there.
+  std::uint32_t& number(std::uint64_t cell, std::uint32_t row) {
+    return rows_[row][(cell & 3) | ((cell >> kCellBits) & 3) << 2];
   }
 
  private:
+  static constexpr std::uint64_t kInPatch = std::uint64_t{3} | (std::uint64_t{3} << kCellBits);
+  static constexpr std::size_t kSlotsPerPatch = 4, kLeast = 1024;
   struct Slot {
-    std::uint32_t mark, number;  // the round in which it was taken, and 24 bits of its cell's hash above it
+    std::uint64_t patch;
+    std::uint32_t row;
+    std::uint8_t round;  // in which it was taken
   };
-  static constexpr std::uint32_t kRounds = 255;
-  static constexpr std::size_t kPatch = 16, kLeast = 1024, kLine = 8;
-  struct alignas(64) Line : std::array<Slot, kLine> {};  // of the cache
-  Slot& at(std::size_t slot) { return lines_[slot / kLine][slot % kLine]; }
-  const Slot& at(std::size_t slot) const { return lines_[slot / kLine][slot % kLine]; }
+  struct alignas(64) Row : std::array<std::uint32_t, 16> {};
 
   /// The top bits are well mixed.
-  static std::uint64_t spread(std::uint64_t cell) { return cell * 0x9e3779b97f4a7c15ULL; }
-  std::uint32_t mark_of(std::uint64_t cell) const {
-    return static_cast<std::uint32_t>(spread(cell) >> 40) << 8 | round_;
+  std::uint32_t slot_of_patch(std::uint64_t patch) const {
+    return static_cast<std::uint32_t>((patch * 0x9e3779b97f4a7c15ULL) >> shift_);
   }
-  /// The next slot after so many: first all of a line of the cache, which is here already, then the next line.
-  std::size_t after(std::size_t slot, std::size_t tries) const {
-    const std::size_t line = slot & ~(kLine - 1), in_line = (slot + 1) & (kLine - 1);
-    return tries % kLine != 0 ? line | in_line : ((line + kLine) & (size_ - 1)) | in_line;
-  }
+  std::uint32_t after(std::uint32_t slot) const { return (slot + 1) & static_cast<std::uint32_t>(slots_.size() - 1); }
 
-  template <class CellOf>
-  void grow(const CellOf& cell_of) {
-    size_ = std::max(kLeast, 2 * size_);
-    for (const Line& line : std::exchange(lines_, std::vector<Line>(size_ / kLine))) {
-      for (const Slot& one : line) {
-        if ((one.mark & kRounds) != round_) continue;
-        std::size_t slot = this->slot(cell_of(one.number));
-        for (std::size_t tries = 1; at(slot).mark != 0; ++tries) slot = after(slot, tries);
-        at(slot) = one;
-      }
+  void grow() {
+    const std::size_t size = std::max(kLeast, 2 * slots_.size());
+    shift_ = 64 - std::countr_zero(size);
+    for (const Slot& one : std::exchange(slots_, std::vector<Slot>(size))) {
+      if (one.round != round_) continue;
+      std::uint32_t slot = slot_of_patch(one.patch);
+      while (slots_[slot].round == round_) slot = after(slot);
+      slots_[slot] = one;
     }
   }
 
-  std::vector<Line> lines_;
-  std::size_t size_ = 0;
-  std::size_t taken_ = 0;
-  std::uint32_t round_ = 1;  // 1 to kRounds; slots of others are free
+  std::vector<Slot> slots_;  // a power of two
+  std::vector<Row> rows_;
+  std::uint32_t taken_ = 0;  // rows
+  int shift_ = 0;
+  std::uint8_t round_ = 1;  // above 0; slots of others are free
 };
 
 }  // namespace ensonify::echo

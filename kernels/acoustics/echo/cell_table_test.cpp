@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <vector>
 
 using namespace ensonify::echo;
@@ -15,12 +17,13 @@ std::uint64_t cell_of(std::uint64_t east, std::uint64_t north, std::uint64_t up)
 /// Looks cells up one after the other; the cells by the numbers that they got.
 std::vector<std::uint64_t> numbered(CellTable& table, const std::vector<std::uint64_t>& cells) {
   std::vector<std::uint64_t> by_number;
-  const auto cell = [&](std::uint32_t number) { return by_number[number]; };
   for (const std::uint64_t one : cells) {
-    table.make_room(1, cell);
-    const auto next = static_cast<std::uint32_t>(by_number.size());
-    const std::uint32_t number = table.number(one, table.slot(one), next, cell);
-    if (number == next) by_number.push_back(one);
+    table.make_room(1);
+    std::uint32_t& number = table.number(one, table.row(one, table.slot(one)));
+    if (number == CellTable::kNone) {
+      number = static_cast<std::uint32_t>(by_number.size());
+      by_number.push_back(one);
+    }
     REQUIRE(by_number.at(number) == one);
   }
   return by_number;
@@ -39,6 +42,27 @@ TEST_CASE("each cell has one number, however many there are, dense or far apart"
     CellTable table;
     CHECK(numbered(table, twice) == cells);
   }
+}
+
+TEST_CASE("cells of a patch of 4 x 4 share a row, and no others do") {
+  CellTable table;
+  table.make_room(1000);
+  std::map<std::uint32_t, std::set<std::uint64_t>> patches;  // by row
+  for (std::uint64_t east = 0; east < 10; ++east) {
+    for (std::uint64_t north = 0; north < 10; ++north) {
+      for (std::uint64_t up = 0; up < 2; ++up) {
+        const std::uint64_t cell = cell_of(east, north, up);
+        const std::uint32_t row = table.row(cell, table.slot(cell));
+        REQUIRE(table.row(cell, table.slot(cell)) == row);
+        patches[row].insert(cell_of(east / 4, north / 4, up));
+        std::uint32_t& number = table.number(cell, row);
+        REQUIRE(number == CellTable::kNone);  // no other cell of the patch has this place
+        number = 0;
+      }
+    }
+  }
+  CHECK(patches.size() == 3 * 3 * 2);
+  for (const auto& [row, of_row] : patches) CHECK(of_row.size() == 1);
 }
 
 TEST_CASE("a table that was cleared has no cell, also after as many rounds as it can count") {

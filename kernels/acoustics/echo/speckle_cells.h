@@ -28,16 +28,6 @@ namespace ensonify::echo {
 /// incoherent seabed. Choose cells of at most half the range resolution and a quarter of the footprint. The spacing of
 /// cells is exact to 2^20 cells from the world's origin; beyond they repeat.
 class SpeckleCells {
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
-  /// Of a scatterer: sums of its rays.
-  struct Energy {
-    std::uint64_t cell;
-    float scattered_upa2m2, cross_section_m2;
-    std::uint32_t contributor;
-    std::uint32_t next;  // scatterer of the same cell, by another contributor; kNone: there is no other
-  };
-
  public:
   /// What the batches of a transmission have insonified so far. Memory of the caller's: as long as there are
   /// scatterers, and as the longest batch. Scatterers are in the order of the rays that first find them, so the rows of
@@ -48,16 +38,19 @@ class SpeckleCells {
 
    private:
     friend SpeckleCells;
-    CellTable first_of_;                 // the first scatterer of each cell
-    std::vector<Energy> sums_;           // by scatterer
-    std::vector<std::uint32_t> shared_;  // first scatterers of cells that have several
-    std::vector<std::uint32_t> makers_;  // rays of a batch that make one
+    void make_rows(std::size_t count);
+
+    CellTable first_of_;                  // the first scatterer of each cell
+    std::uint32_t size_ = 0;              // scatterers so far; rows behind them are of the last ping
+    Scatterers found_;                    // with the sums of their rays, not yet shared
+    std::vector<std::uint32_t> another_;  // by scatterer: the next one of its cell, by another contributor, or kNone
+    std::vector<std::uint32_t> shared_;   // first scatterers of cells that have several
+    std::vector<std::uint32_t> makers_;   // rays of a batch that make one
     struct Other {
       std::uint32_t scatterer, first;
     };
     std::vector<Other> others_;  // that a batch finds in cells which have one
     CellParts parts_;            // where the caller has none
-    Scatterers found_;           // yet without energies
   };
 
   /// Throws std::invalid_argument unless the cells' edges are above 0 m.
@@ -76,7 +69,7 @@ class SpeckleCells {
   void add(const Insonification& batch, const CellParts& parts, Accumulator& sum) const;
 
   /// The scatterers of all batches since the accumulator was cleared, in the order in which rays find them, whatever
-  /// the batches. They lie in the accumulator until it is cleared.
+  /// the batches. They lie in the accumulator until it is cleared; no batch is added before that.
   /// After them come `more`, which other stages have found.
   static const Scatterers& gather(Accumulator& sum, const Scatterers& more = {});
 
@@ -84,8 +77,9 @@ class SpeckleCells {
   const random::Stream& responses() const { return streams_.responses(); }
 
  private:
+  static constexpr std::uint32_t kNone = CellTable::kNone;
   static void merge(const CellParts& parts, std::span<const std::uint32_t> contributors, Accumulator& sum);
-  void place_new(const Insonification& batch, Accumulator& sum) const;
+  void place_new(const Insonification& batch, std::size_t before, Accumulator& sum) const;
   static void share(Accumulator& sum);
 
   CellSize size_;

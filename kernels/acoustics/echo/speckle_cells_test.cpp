@@ -194,3 +194,23 @@ TEST_CASE("batches of rays make the scatterers of all rays at once, to the bit")
     CHECK(SpeckleCells::gather(sum).empty());
   }
 }
+
+TEST_CASE("what a ping leaves behind changes no bit of the next one") {
+  const frames::HeadPose pose{};
+  const auto one = strip().hits(pose);
+  auto mixed = one;
+  for (std::size_t i = 0; i < mixed.size(); i += 3) mixed.contributor[i] = trace::sediment_contributor(4);
+  const SpeckleCells cells(0.03, {1, "seabed"});
+  const auto insonified = [&](const trace::Hits& hits) {
+    return Insonification{pose, strip().rays, hits, strip().source, strip().backscatter};
+  };
+  const Scatterers more{Scatterer{}, Scatterer{}};
+  SpeckleCells::Accumulator sum;
+  for (const trace::Hits& hits : {mixed, one, mixed}) {
+    sum.clear();
+    cells.add(insonified(hits), sum);
+    Scatterers want = scatterers_of(cells, insonified(hits));
+    for (const Scatterer& body : more) want.push_back(body);
+    CHECK(SpeckleCells::gather(sum, more) == want);
+  }
+}
