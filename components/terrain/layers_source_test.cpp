@@ -173,7 +173,8 @@ TEST_CASE("a block that reaches over the seabed's edges has its posts where they
     const Posts cut = sampled(source, whole);
     for (int row = 0; row < whole.rows; ++row) {
       for (int column = 0; column < whole.columns; ++column) {
-        const auto k = static_cast<std::size_t>(row * whole.columns + column);
+        const auto k =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(whole.columns) + static_cast<std::size_t>(column);
         const PostBlock alone{whole.first_east + column, whole.first_north + row, 1, 1, spacing_m};
         const Posts one = sampled(source, alone);
         REQUIRE(same({&cut.height_m[k], 1}, one.height_m));
