@@ -103,7 +103,7 @@ ENSONIFY_WIDE void directions_to(const ToHead& to_head, const Edges& edges, cons
 
 /// Those of `count` that are within the edges.
 void append(const Directions& found, std::size_t count, Rays& rays, std::size_t& next) {
-  if (rays.size() < next + kSome) rays.resize(2 * (next + kSome));
+  if (rays.size() < next + count) rays.resize(2 * (next + count));
   float *const x = rays.direction_head.x.data(), *const y = rays.direction_head.y.data(),
                *const z = rays.direction_head.z.data(), *const solid_angle_sr = rays.solid_angle_sr.data();
   std::size_t at = next;

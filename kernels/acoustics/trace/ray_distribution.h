@@ -324,8 +324,8 @@ class RayDistribution {
   void fill_part(const Plan& plan, std::size_t index, const Place& head, Aimed& aimed) const;
   void fill(const Plan& plan, std::size_t first, std::size_t count, Batch& batch) const;
   static void settle(const Plan& plan, Batch& batch);
-  /// Rays to all places of the part's plane that lie in its directions; none where the plane is seen too flat. They are
-  /// appended, and their number and solid angle added, unless there is nothing to do so to.
+  /// Appends rays to all places of the part's plane that lie in its directions, none where the plane is seen too flat,
+  /// and adds their number and solid angle. Where `aimed` or `counted` is null, that is left out.
   struct ToPlaces {
     std::size_t rays = 0;
     double solid_angle_sr = 0.0;
